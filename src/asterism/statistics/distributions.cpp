@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "asterism/statistics/distributions.hpp"
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
+
+namespace asterism {
+
+double chi_square_quantile(double p, double degrees) {
+  return boost::math::quantile(boost::math::chi_squared(degrees), p);
+}
+
+double chi_square_tail(double value, double degrees) {
+  if (value <= 0) return 1.0;
+  return boost::math::cdf(boost::math::complement(boost::math::chi_squared(degrees), value));
+}
+
+double normal_quantile(double p) { return boost::math::quantile(boost::math::normal(), p); }
+
+}  // namespace asterism

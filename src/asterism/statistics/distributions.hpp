@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace asterism {
+
+/// The value a χ² variable with `degrees` of freedom stays below with probability `p` in (0, 1).
+[[nodiscard]] double chi_square_quantile(double p, double degrees);
+
+/// P(χ² > value).
+[[nodiscard]] double chi_square_tail(double value, double degrees);
+
+/// The value a standard normal variable stays below with probability `p` in (0, 1).
+[[nodiscard]] double normal_quantile(double p);
+
+}  // namespace asterism
