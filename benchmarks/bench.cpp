@@ -46,7 +46,7 @@ void Table::row(const std::vector<std::string>& cells) {
 }
 
 void Table::print_json() const {
-  nlohmann::json json = {{"title", title_},       {"columns", columns_}, {"rows", rows_},
+  nlohmann::json json = {{"title", title_},          {"columns", columns_},     {"rows", rows_},
                          {"processor", processor()}, {"compiler", __VERSION__}, {"date", __DATE__}};
   fmt::print("{}\n", json.dump());
 }
@@ -57,10 +57,12 @@ double median_seconds(const std::function<void()>& call, int repeats) {
 
 std::vector<double> median_seconds_in_turn(const std::vector<std::function<void()>>& calls, int repeats) {
   std::vector<int> times;
-  for (const auto& call : calls) times.push_back(std::max(1, static_cast<int>(2e-3 / std::max(1e-9, seconds_of(call, 1)))));
+  for (const auto& call : calls)
+    times.push_back(std::max(1, static_cast<int>(2e-3 / std::max(1e-9, seconds_of(call, 1)))));
   std::vector<std::vector<double>> samples(calls.size());
   for (int repeat = 0; repeat < repeats; ++repeat) {
-    for (std::size_t i = 0; i < calls.size(); ++i) samples[i].push_back(seconds_of(calls[i], times[i]) / times[i]);
+    for (std::size_t i = 0; i < calls.size(); ++i)
+      samples[i].push_back(seconds_of(calls[i], times[i]) / times[i]);
   }
   std::vector<double> medians;
   for (auto& sample : samples) medians.push_back(median(std::move(sample)));

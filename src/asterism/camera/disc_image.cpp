@@ -12,8 +12,10 @@ namespace {
 Vec2 shift_by_distortion(const Lens& lens, const Vec2& xy, const Mat2& shape) {
   if (lens.coefficients == 0) return Vec2::Zero();
   constexpr double kStep = 1e-4;
-  const Mat2 by_x = (distort(lens, xy + Vec2(kStep, 0)).by_xy - distort(lens, xy - Vec2(kStep, 0)).by_xy) / (2 * kStep);
-  const Mat2 by_y = (distort(lens, xy + Vec2(0, kStep)).by_xy - distort(lens, xy - Vec2(0, kStep)).by_xy) / (2 * kStep);
+  const Mat2 by_x =
+      (distort(lens, xy + Vec2(kStep, 0)).by_xy - distort(lens, xy - Vec2(kStep, 0)).by_xy) / (2 * kStep);
+  const Mat2 by_y =
+      (distort(lens, xy + Vec2(0, kStep)).by_xy - distort(lens, xy - Vec2(0, kStep)).by_xy) / (2 * kStep);
   const Mat2 undo = distort(lens, xy).by_xy.inverse();
   // The ellipse lives in the distorted image, so H is read back through the local linear map.
   const Vec2 curvature = by_x * shape.col(0) + by_y * shape.col(1);

@@ -8,15 +8,15 @@ namespace asterism {
 
 /// A flat round target in a camera's frame.
 struct Disc {
-  Vec3 centre;  // mm
-  Vec3 normal;  // unit; either side
+  Vec3 centre;    // mm
+  Vec3 normal;    // unit; either side
   double radius;  // mm; 0 = a point
 };
 
 struct DiscCentre {
-  Vec2 px;           // centre of the disc's elliptical image: not the image of its centre
-  Mat23 by_centre;   // ∂px / ∂centre
-  Mat23 by_normal;   // ∂px / ∂normal
+  Vec2 px;          // centre of the disc's elliptical image: not the image of its centre
+  Mat23 by_centre;  // ∂px / ∂centre
+  Mat23 by_normal;  // ∂px / ∂normal
 };
 
 /// Centre of the image of a disc, exact for a pinhole: the dual conic of a disc is
@@ -28,6 +28,7 @@ struct DiscCentre {
 [[nodiscard]] Result<Ellipse, LensFailure> image_of_disc(const Lens& lens, const Disc& disc);
 
 /// The outline of a sphere: C* = c cᵀ − r² I.
-[[nodiscard]] Result<Ellipse, LensFailure> image_of_sphere(const Lens& lens, const Vec3& centre, double radius);
+[[nodiscard]] Result<Ellipse, LensFailure> image_of_sphere(const Lens& lens, const Vec3& centre,
+                                                           double radius);
 
 }  // namespace asterism

@@ -17,7 +17,8 @@ struct Raster {
   std::vector<Grey> pixels;
 
   Raster() = default;
-  Raster(int w, int h) : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
+  Raster(int w, int h)
+      : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
 
   [[nodiscard]] const Grey* row(int y) const {
     return pixels.data() + static_cast<std::ptrdiff_t>(y) * width;

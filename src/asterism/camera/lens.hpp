@@ -27,8 +27,8 @@ struct Projection {
 };
 
 struct DistortionResult {
-  Vec2 xy;      // distorted, normalised
-  Mat2 by_xy;   // ∂ / ∂ undistorted
+  Vec2 xy;     // distorted, normalised
+  Mat2 by_xy;  // ∂ / ∂ undistorted
 };
 
 /// Undistorted to distorted normalised coordinates.

@@ -12,9 +12,10 @@ namespace {
 
 Lens lens_with(int coefficients) {
   Lens lens{1200, 1190, 0.7, 640.5, 481.25, {}, coefficients, 1280, 960};
-  const std::array<double, 14> values = {-0.21, 0.09, 0.0011, -0.0007, -0.013, 0.05, 0.01, -0.002,
-                                         0.0009, -0.0004, 0.0006, 0.0003, 0.012, -0.009};
-  for (int i = 0; i < coefficients; ++i) lens.distortion[static_cast<std::size_t>(i)] = values[static_cast<std::size_t>(i)];
+  const std::array<double, 14> values = {-0.21,  0.09,   0.0011,  -0.0007, -0.013, 0.05,  0.01,
+                                         -0.002, 0.0009, -0.0004, 0.0006,  0.0003, 0.012, -0.009};
+  for (int i = 0; i < coefficients; ++i)
+    lens.distortion[static_cast<std::size_t>(i)] = values[static_cast<std::size_t>(i)];
   return lens;
 }
 

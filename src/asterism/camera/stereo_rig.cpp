@@ -9,12 +9,15 @@ namespace asterism {
 namespace {
 
 void check_lens(const Lens& lens, const std::string& where, const char* which) {
-  const auto refuse = [&](const std::string& what) { throw InputError(where, fmt::format("{} camera: {}", which, what)); };
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(where, fmt::format("{} camera: {}", which, what));
+  };
   bool finite = std::isfinite(lens.fx) && std::isfinite(lens.fy) && std::isfinite(lens.skew) &&
                 std::isfinite(lens.cx) && std::isfinite(lens.cy);
   for (const double coefficient : lens.distortion) finite = finite && std::isfinite(coefficient);
   if (!finite) refuse("a calibration value is not a finite number");
-  if (!(lens.fx > 0 && lens.fy > 0)) refuse(fmt::format("focal lengths must be positive, found {} and {}", lens.fx, lens.fy));
+  if (!(lens.fx > 0 && lens.fy > 0))
+    refuse(fmt::format("focal lengths must be positive, found {} and {}", lens.fx, lens.fy));
   if (lens.width_px < 1 || lens.height_px < 1) {
     refuse(fmt::format("image size must be positive, found {} × {}", lens.width_px, lens.height_px));
   }

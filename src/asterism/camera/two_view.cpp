@@ -99,7 +99,8 @@ Result<TwoViewPoint, TwoViewFailure> triangulate_pair(const StereoRig& rig, cons
     point.covariance += by * rig.covariance * by.transpose();
   }
 
-  const double px_per_unit = 0.5 * (std::sqrt(rig.left.fx * rig.left.fy) + std::sqrt(rig.right.fx * rig.right.fy));
+  const double px_per_unit =
+      0.5 * (std::sqrt(rig.left.fx * rig.left.fy) + std::sqrt(rig.right.fx * rig.right.fy));
   point.epipolar_error_px = corrected.error * px_per_unit;
   point.epipolar_sigma_px = corrected.sigma * px_per_unit;
   return point;

@@ -7,10 +7,10 @@ namespace asterism {
 
 /// Where two sight lines meet, and how well.
 struct TwoViewPoint {
-  Vec3 in_tracker;            // mm
-  Mat3 covariance;            // mm²
-  double epipolar_error_px;   // signed, along the gradient of the epipolar constraint over both images
-  double epipolar_sigma_px;   // what the centres' covariances let it be
+  Vec3 in_tracker;           // mm
+  Mat3 covariance;           // mm²
+  double epipolar_error_px;  // signed, along the gradient of the epipolar constraint over both images
+  double epipolar_sigma_px;  // what the centres' covariances let it be
 };
 
 enum class TwoViewFailure { LensFolds, RaysParallel, BehindCamera };

@@ -29,7 +29,8 @@ void check_body(const Body& body, const std::string& where) {
   if (body.targets.empty()) throw InputError(here, "it has no targets");
   std::set<std::string> ids;
   for (const Target& target : body.targets) {
-    if (!ids.insert(target.id).second) throw InputError(here, fmt::format("target id `{}` is given twice", target.id));
+    if (!ids.insert(target.id).second)
+      throw InputError(here, fmt::format("target id `{}` is given twice", target.id));
     check_target(target, here);
   }
   for (std::size_t i = 0; i < body.targets.size(); ++i) {
@@ -47,7 +48,8 @@ void check_bodies(const std::vector<Body>& bodies, const std::string& where) {
   std::set<std::string> names;
   for (const Body& body : bodies) {
     if (body.name.empty()) throw InputError(where, "a body has no name");
-    if (!names.insert(body.name).second) throw InputError(where, fmt::format("body `{}` is given twice", body.name));
+    if (!names.insert(body.name).second)
+      throw InputError(where, fmt::format("body `{}` is given twice", body.name));
     check_body(body, where);
   }
 }

@@ -12,8 +12,8 @@ namespace asterism {
 /// A round target fixed to a body.
 struct Target {
   std::string id;
-  Vec3 position;                // mm, in the body's frame
-  std::optional<Vec3> normal;   // unit; where the disc faces
+  Vec3 position;               // mm, in the body's frame
+  std::optional<Vec3> normal;  // unit; where the disc faces
   std::optional<double> diameter_mm;
   std::optional<Mat3> covariance;  // mm², of the position
 

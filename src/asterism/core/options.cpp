@@ -49,8 +49,8 @@ std::string unknown_name_message(std::string_view wrong, std::string_view of,
 
 void check_number(std::string_view name, double value, Limits limits) {
   if (std::isfinite(value) && value >= limits.lowest && value <= limits.highest) return;
-  throw InputError(fmt::format("`{}` is {}; it must lie between {} and {}", name, value, limits.lowest,
-                               limits.highest));
+  throw InputError(
+      fmt::format("`{}` is {}; it must lie between {} and {}", name, value, limits.lowest, limits.highest));
 }
 
 }  // namespace asterism

@@ -29,7 +29,8 @@ Mat3 left_jacobian(const Vec3& omega) {
 }
 
 RigidMotion perturbed(const RigidMotion& motion, const Vec6& error) {
-  return {(exp_rotation(error.head<3>()) * motion.rotation).normalized(), motion.translation + error.tail<3>()};
+  return {(exp_rotation(error.head<3>()) * motion.rotation).normalized(),
+          motion.translation + error.tail<3>()};
 }
 
 Vec6 difference(const RigidMotion& to, const RigidMotion& from) {

@@ -10,7 +10,8 @@
 namespace asterism {
 namespace {
 
-const std::vector<std::string> kFlagNames = {"saturated", "occluded", "border", "touching", "small", "coarse"};
+const std::vector<std::string> kFlagNames = {"saturated", "occluded", "border",
+                                             "touching",  "small",    "coarse"};
 
 }  // namespace
 

@@ -6,8 +6,8 @@
 
 #include "asterism/camera/image.hpp"
 #include "asterism/measurement/centre.hpp"
-#include "asterism/measurement/point.hpp"
 #include "asterism/measurement/label.hpp"
+#include "asterism/measurement/point.hpp"
 #include "asterism/measurement/pose.hpp"
 
 namespace asterism {
