@@ -145,7 +145,7 @@ ParameterJacobian pixel_by_parameters(const Lens& lens, const Vec2& undistorted_
   // By distortion coefficient, in normalised coordinates before the tilt.
   Eigen::Matrix<double, 2, 14> by;
   by.setZero();
-  const Vec2 xy = undistorted_xy;
+  const Vec2& xy = undistorted_xy;
   by.col(k1) = xy * (r2 / denominator);
   by.col(k2) = xy * (r4 / denominator);
   by.col(p1) = Vec2(2 * x * y, r2 + 2 * y * y);
