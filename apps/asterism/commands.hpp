@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace asterism::app {
+
+struct Common;
+
+// Each adds its subcommand to `root`; `common.run` becomes the work of the one that was called.
+// One file each; main.cpp lists them in the order of `asterism --help`. A command's file reads
+//   void add_detect(CLI::App& root, Common& common) {
+//     CLI::App* command = add_command(root, common, "detect", "what it does", "asterism detect …");
+//     auto call = std::make_shared<Call>();  // its own options, a struct
+//     command->add_option("--out", call->out, "…")->required();
+//     const auto options = step_options<DetectionOptions>(*command);
+//     on_call(*command, common, [=, &common] { run(*call, options(), common); });
+//   }
+
+}  // namespace asterism::app
