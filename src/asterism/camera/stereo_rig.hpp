@@ -30,8 +30,16 @@ struct StereoRig {
   [[nodiscard]] double baseline_mm() const { return right_from_left.translation.norm(); }
 };
 
+/// The names that `covariance_order` holds, for this rig's lenses.
+[[nodiscard]] std::vector<std::string> rig_parameter_names(const StereoRig& rig);
+
+/// ∂px / ∂(the rig's parameters), 2 × their number, of the image of a point in one camera.
+/// `pixel_by_point` is ∂px / ∂(the point in that camera's frame).
+[[nodiscard]] MatX pixel_by_rig(const StereoRig& rig, Side side, const Vec3& in_tracker,
+                                const Mat23& pixel_by_point);
+
 /// Throws InputError when a number is not finite, a focal length or the baseline not positive, the
-/// rotation not one, an image size missing.
+/// rotation not one, an image size missing, the covariance not one of all parameters.
 void check_rig(const StereoRig& rig, const std::string& where);
 
 }  // namespace asterism

@@ -8,7 +8,6 @@ namespace {
 
 using Vec4 = Eigen::Vector4d;
 using Mat4 = Eigen::Matrix4d;
-using Mat43 = Eigen::Matrix<double, 4, 3>;
 
 struct Corrected {
   Vec4 xy;  // left x y, right x y; on the epipolar constraint
@@ -35,21 +34,6 @@ Corrected correct_onto_epipolar(const Mat3& essential, const Vec4& measured, con
   }
   result.xy = on;
   return result;
-}
-
-/// ∂(projections of X into both cameras, 4 numbers in px) / ∂(the rig's parameters), columns in the
-/// order of StereoRig::covariance_order as calibration writes it.
-MatX pixels_by_rig(const StereoRig& rig, const Vec3& point, const Mat23& right_by_point) {
-  const Vec3 in_right = rig.right_from_left * point;
-  const auto left = pixel_by_parameters(rig.left, point.hnormalized());
-  const auto right = pixel_by_parameters(rig.right, in_right.hnormalized());
-  MatX jacobian = MatX::Zero(4, left.cols() + right.cols() + 6);
-  jacobian.topLeftCorner(2, left.cols()) = left;
-  jacobian.block(2, left.cols(), 2, right.cols()) = right;
-  Mat36 by_motion;
-  by_motion << -skew(rig.right_from_left.rotation * point), Mat3::Identity();
-  jacobian.bottomRightCorner<2, 6>() = right_by_point * by_motion;
-  return jacobian;
 }
 
 }  // namespace
@@ -90,12 +74,13 @@ Result<TwoViewPoint, TwoViewFailure> triangulate_pair(const StereoRig& rig, cons
   point.covariance = information.inverse();
 
   if (rig.covariance.size() > 0) {
-    const MatX by_rig = pixels_by_rig(rig, point.in_tracker, in_right->by_point);
-    require(by_rig.cols() == rig.covariance.cols(), "a rig's covariance covers each of its parameters");
-    Eigen::Matrix<double, 3, 4> gain;
-    gain << point.covariance * in_left->by_point.transpose() * left_weight,
-        point.covariance * right_by_point.transpose() * right_weight;
-    const MatX by = gain * by_rig;
+    const MatX left_by_rig = pixel_by_rig(rig, Side::Left, point.in_tracker, in_left->by_point);
+    const MatX right_by_rig = pixel_by_rig(rig, Side::Right, point.in_tracker, in_right->by_point);
+    require(left_by_rig.cols() == rig.covariance.cols(), "a rig's covariance covers each of its parameters");
+    const Mat23 left_gain = left_weight * in_left->by_point;
+    const Mat23 right_gain = right_weight * right_by_point;
+    const MatX by =
+        point.covariance * (left_gain.transpose() * left_by_rig + right_gain.transpose() * right_by_rig);
     point.covariance += by * rig.covariance * by.transpose();
   }
 
