@@ -2,6 +2,7 @@
 #include "asterism/statistics/distributions.hpp"
 
 #include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/normal.hpp>
 
 namespace asterism {
@@ -13,6 +14,12 @@ double chi_square_quantile(double p, double degrees) {
 double chi_square_tail(double value, double degrees) {
   if (value <= 0) return 1.0;
   return boost::math::cdf(boost::math::complement(boost::math::chi_squared(degrees), value));
+}
+
+double fisher_tail(double value, double numerator_degrees, double denominator_degrees) {
+  if (value <= 0) return 1.0;
+  return boost::math::cdf(
+      boost::math::complement(boost::math::fisher_f(numerator_degrees, denominator_degrees), value));
 }
 
 double normal_quantile(double p) { return boost::math::quantile(boost::math::normal(), p); }

@@ -9,6 +9,9 @@ namespace asterism {
 /// P(χ² > value).
 [[nodiscard]] double chi_square_tail(double value, double degrees);
 
+/// P(F > value) for Fisher's F with the degrees of freedom of its numerator and denominator.
+[[nodiscard]] double fisher_tail(double value, double numerator_degrees, double denominator_degrees);
+
 /// The value a standard normal variable stays below with probability `p` in (0, 1).
 [[nodiscard]] double normal_quantile(double p);
 
