@@ -21,6 +21,9 @@ enum class PoseStatus { Ok, Partial, Predicted, Ambiguous, Lost };
 struct PoseEstimate {
   RigidMotion tracker_from_body;
   Mat6 covariance = Mat6::Zero();  // ω (rad), δ (mm) at the body's origin, along the tracker's axes
+  /// The share of it that is the same in each frame (the body's and the rig's own error): averaging
+  /// over frames does not make it smaller.
+  Mat6 systematic = Mat6::Zero();
 };
 
 /// One body in one frame.
