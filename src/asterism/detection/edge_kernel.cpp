@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "asterism/detection/edge_kernel.hpp"
+
+#include <bit>
+#include <cstring>
+
+#include "asterism/detection/clones.hpp"
+
+namespace asterism {
+namespace {
+
+using Lanes = float __attribute__((vector_size(32)));
+using Ints = int __attribute__((vector_size(32)));
+
+ASTERISM_INLINE Lanes load(const float* from) {
+  Lanes lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+
+/// 1/√x to float's precision: a start from the exponent and three Newton steps.
+ASTERISM_INLINE Lanes inverse_root(Lanes x) {
+  Lanes y = reinterpret_cast<Lanes>(0x5f375a86 - (reinterpret_cast<Ints>(x) >> 1));
+  const Lanes half = 0.5F * x;
+  y = y * (1.5F - half * y * y);
+  y = y * (1.5F - half * y * y);
+  return y * (1.5F - half * y * y);
+}
+
+/// exp(x) for −80 ≤ x ≤ 0, to 2e-7 relative.
+ASTERISM_INLINE Lanes exponential(Lanes x) {
+  const Lanes scaled = x * 1.44269504F;
+  const Ints whole = __builtin_convertvector(scaled - 0.5F, Ints);
+  const Lanes rest = (scaled - __builtin_convertvector(whole, Lanes)) * 0.693147181F;
+  Lanes sum = 1.0F / 720 * rest + 1.0F / 120;
+  sum = sum * rest + 1.0F / 24;
+  sum = sum * rest + 1.0F / 6;
+  sum = sum * rest + 0.5F;
+  sum = sum * rest + 1.0F;
+  sum = sum * rest + 1.0F;
+  return sum * reinterpret_cast<Lanes>((whole + 127) << 23);
+}
+
+struct Normal {
+  Lanes tail, density;  // Φ(−t), φ(t)
+};
+
+/// Abramowitz and Stegun 7.1.26: |error| < 1.5e-7.
+ASTERISM_INLINE Normal normal(Lanes t) {
+  const Ints sign = reinterpret_cast<Ints>(t) & static_cast<int>(0x80000000);
+  Lanes size = reinterpret_cast<Lanes>(reinterpret_cast<Ints>(t) ^ sign);
+  size = size < 12.0F ? size : Lanes{} + 12.0F;
+  const Lanes bell = exponential(-0.5F * size * size);
+  const Lanes k = 1.0F / (1.0F + 0.3275911F * 0.707106781F * size);
+  Lanes sum = 1.061405429F * k - 1.453152027F;
+  sum = sum * k + 1.421413741F;
+  sum = sum * k - 0.284496736F;
+  sum = sum * k + 0.254829592F;
+  const Lanes tail = 0.5F * sum * k * bell;
+  return {sign == 0 ? tail : 1.0F - tail, 0.398942280F * bell};
+}
+
+struct Constants {
+  float x, y, m11, m12, m22, q11, q12, q22, root_determinant, determinant, blur, inverse_blur;
+
+  explicit Constants(const EdgeModel& model)
+      : x(static_cast<float>(model.x)),
+        y(static_cast<float>(model.y)),
+        m11(static_cast<float>(model.m11)),
+        m12(static_cast<float>(model.m12)),
+        m22(static_cast<float>(model.m22)),
+        q11(m11 * m11 + m12 * m12),
+        q12(m12 * (m11 + m22)),
+        q22(m12 * m12 + m22 * m22),
+        root_determinant(m11 * m22 - m12 * m12),
+        determinant(root_determinant * root_determinant),
+        blur(static_cast<float>(model.blur)),
+        inverse_blur(1.0F / blur) {}
+};
+
+/// Where eight pixels lie in respect of the ellipse.
+struct Place {
+  Lanes dx, dy;
+  Lanes mx, my;          // M (p − c)
+  Lanes qx, qy;          // M² (p − c)
+  Lanes inverse_radius;  // 1/f, f = |M (p − c)|
+  Lanes inverse_slope;   // 1/|M² (p − c)|
+  Lanes distance, curvature;
+};
+
+ASTERISM_INLINE Place place(const Constants& c, Lanes dx, Lanes dy) {
+  Place p;
+  p.dx = dx;
+  p.dy = dy;
+  p.mx = c.m11 * dx + c.m12 * dy;
+  p.my = c.m12 * dx + c.m22 * dy;
+  p.qx = c.q11 * dx + c.q12 * dy;
+  p.qy = c.q12 * dx + c.q22 * dy;
+  // The small numbers keep the centre pixel finite.
+  const Lanes square = p.mx * p.mx + p.my * p.my + 1e-8F;
+  p.inverse_radius = inverse_root(square);
+  p.inverse_slope = inverse_root(p.qx * p.qx + p.qy * p.qy + 1e-8F * c.root_determinant);
+  const Lanes radius = square * p.inverse_radius;
+  p.distance = (square - radius) * p.inverse_slope;
+  const Lanes per_slope = radius * p.inverse_slope;
+  p.curvature = c.determinant * per_slope * per_slope * per_slope;
+  return p;
+}
+
+constexpr Lanes kCount = {0, 1, 2, 3, 4, 5, 6, 7};
+
+ASTERISM_INLINE float sum_of(Lanes v) {
+  return ((v[0] + v[4]) + (v[1] + v[5])) + ((v[2] + v[6]) + (v[3] + v[7]));
+}
+
+ASTERISM_CLONES void accumulate(const Patch& patch, const EdgeModel& model, const EdgeNoise& noise,
+                                NormalEquations& result) {
+  constexpr int kN = EdgeModel::kParameters;
+  const Constants c(model);
+  const auto background = static_cast<float>(model.background);
+  const auto amplitude = static_cast<float>(model.amplitude);
+  const auto v0 = static_cast<float>(noise.outside), v1 = static_cast<float>(noise.linear),
+             v2 = static_cast<float>(noise.square);
+  Lanes matrix[NormalEquations::kUpper] = {};
+  Lanes right[kN] = {};
+  Lanes chi_square = {}, count = {};
+  for (int row = 0; row < patch.rows; ++row) {
+    const Lanes dy = Lanes{} + (static_cast<float>(row) - c.y);
+    for (int column = 0; column < patch.stride; column += 8) {
+      const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(row) * patch.stride + column;
+      const Place p = place(c, kCount + (static_cast<float>(column) - c.x), dy);
+      const Lanes t = p.distance * c.inverse_blur + 0.5F * c.blur * p.curvature;
+      const Normal n = normal(t);
+      const Lanes uneven = load(&patch.unevenness[0] + at);
+      const Lanes usable = load(&patch.usable[0] + at);
+      const Lanes height = amplitude - uneven;
+      const Lanes residual = load(&patch.grey[0] + at) - background - uneven - height * n.tail;
+      const Lanes weight = usable / (v0 + n.tail * (v1 + n.tail * v2));
+      // How the grey level changes as the edge moves outwards, per px.
+      const Lanes steep = height * n.density * c.inverse_blur;
+      const Lanes along = steep * p.inverse_slope;
+      const Lanes by_shape = -steep * p.inverse_slope * p.inverse_radius;
+      const Lanes j[kN] = {
+          along * p.qx,           along * p.qy,
+          by_shape * p.mx * p.dx, by_shape * (p.mx * p.dy + p.my * p.dx),
+          by_shape * p.my * p.dy, n.tail,
+          Lanes{} + 1.0F,         steep * (p.distance * c.inverse_blur - 0.5F * c.blur * p.curvature)};
+      int k = 0;
+      for (int a = 0; a < kN; ++a) {
+        const Lanes weighted = weight * j[a];
+        right[a] += weighted * residual;
+        for (int b = a; b < kN; ++b) matrix[k++] += weighted * j[b];
+      }
+      chi_square += weight * residual * residual;
+      count += usable;
+    }
+  }
+  for (int k = 0; k < NormalEquations::kUpper; ++k)
+    result.matrix[static_cast<std::size_t>(k)] = sum_of(matrix[k]);
+  for (int a = 0; a < kN; ++a) result.right[static_cast<std::size_t>(a)] = sum_of(right[a]);
+  result.chi_square = sum_of(chi_square);
+  result.usable = sum_of(count);
+}
+
+ASTERISM_CLONES void evaluate_all(const Patch& patch, const EdgeModel& model, float* share, float* distance) {
+  const Constants c(model);
+  for (int row = 0; row < patch.rows; ++row) {
+    const Lanes dy = Lanes{} + (static_cast<float>(row) - c.y);
+    for (int column = 0; column < patch.stride; column += 8) {
+      const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(row) * patch.stride + column;
+      const Place p = place(c, kCount + (static_cast<float>(column) - c.x), dy);
+      const Lanes tail = normal(p.distance * c.inverse_blur + 0.5F * c.blur * p.curvature).tail;
+      std::memcpy(share + at, &tail, sizeof tail);
+      std::memcpy(distance + at, &p.distance, sizeof tail);
+    }
+  }
+}
+
+}  // namespace
+
+NormalEquations normal_equations(const Patch& patch, const EdgeModel& model, const EdgeNoise& noise) {
+  NormalEquations result;
+  accumulate(patch, model, noise, result);
+  return result;
+}
+
+void evaluate(const Patch& patch, const EdgeModel& model, PatchModel& result) {
+  result.share.resize(patch.grey.size());
+  result.distance.resize(patch.grey.size());
+  evaluate_all(patch, model, result.share.data(), result.distance.data());
+}
+
+}  // namespace asterism

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "asterism/detection/noise_model.hpp"
+
+#include <cmath>
+
+namespace asterism {
+namespace {
+
+constexpr float kInside = 0.995F, kOutside = 0.005F;
+
+struct Sample {
+  double level, variance, pixels;
+};
+
+}  // namespace
+
+Scatter scatter_of(const Patch& patch, const EdgeModel& model) {
+  PatchModel at;
+  evaluate(patch, model, at);
+  double in[3] = {}, out[3] = {};
+  for (std::size_t i = 0; i < patch.grey.size(); ++i) {
+    if (patch.usable[i] == 0) continue;
+    if (at.share[i] > kOutside && at.share[i] < kInside) continue;
+    double* sums = at.share[i] >= kInside ? in : out;
+    const double grey = patch.grey[i] - patch.unevenness[i] * (1 - at.share[i]);
+    sums[0] += 1;
+    sums[1] += grey;
+    sums[2] += grey * grey;
+  }
+  const auto variance = [](const double* s) {
+    return s[0] < 4 ? 0.0 : std::max(0.0, (s[2] - s[1] * s[1] / s[0]) / (s[0] - 1));
+  };
+  Scatter scatter;
+  scatter.outside_pixels = out[0] < 4 ? 0 : out[0];
+  scatter.outside_level = model.background;
+  scatter.outside_variance = variance(out);
+  scatter.inside_pixels = in[0] < 4 ? 0 : in[0];
+  scatter.inside_level = model.background + model.amplitude;
+  scatter.inside_variance = variance(in);
+  return scatter;
+}
+
+NoiseModel noise_model(const std::vector<Scatter>& scatters, double step) {
+  NoiseModel model;
+  model.floor = step * step / 12;
+  std::vector<Sample> samples;
+  for (const Scatter& s : scatters) {
+    if (s.outside_pixels > 0)
+      samples.push_back({s.outside_level, s.outside_variance + model.floor * 0.1, s.outside_pixels});
+    if (s.inside_pixels > 0)
+      samples.push_back({s.inside_level, s.inside_variance + model.floor * 0.1, s.inside_pixels});
+  }
+  if (samples.empty()) return {model.floor, 0, model.floor};
+  double n = 0, sum = 0;
+  for (const Sample& s : samples) n += s.pixels, sum += s.pixels * s.variance;
+  model.constant = sum / n;
+  for (int round = 0; round < 12; ++round) {
+    // Each variance is known to a share √(2/n) of itself; far too large ones are texture.
+    double w0 = 0, w1 = 0, w2 = 0, v0 = 0, v1 = 0;
+    for (const Sample& s : samples) {
+      const double expected = model.variance(s.level);
+      const double excess = std::max(0.0, s.variance / expected - 1) / 0.5;
+      const double weight = s.pixels / (expected * expected) / (1 + excess * excess);
+      w0 += weight;
+      w1 += weight * s.level;
+      w2 += weight * s.level * s.level;
+      v0 += weight * s.variance;
+      v1 += weight * s.variance * s.level;
+    }
+    const double spread = w2 * w0 - w1 * w1;
+    if (spread < 1e-4 * w0 * w0) {
+      model.constant = v0 / w0;
+      model.per_level = 0;
+    } else {
+      model.per_level = (v1 * w0 - v0 * w1) / spread;
+      model.constant = (v0 - model.per_level * w1) / w0;
+    }
+  }
+  return model;
+}
+
+EdgeNoise edge_noise(const NoiseModel& noise, const Scatter& scatter, const EdgeModel& model) {
+  const auto clearly = [](double measured, double expected, double pixels) {
+    if (pixels < 8) return expected;
+    return measured > expected * (1 + 3.5 * std::sqrt(2 / pixels)) ? measured : expected;
+  };
+  const double outside =
+      clearly(scatter.outside_variance, noise.variance(model.background), scatter.outside_pixels);
+  const double inside = clearly(scatter.inside_variance, noise.variance(model.background + model.amplitude),
+                                scatter.inside_pixels);
+  return {outside, inside - outside, 0};
+}
+
+}  // namespace asterism
