@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "asterism/cell/cell.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "asterism/core/result.hpp"
+
+namespace asterism {
+namespace {
+
+/// Holds each number to the limits its describe() states.
+class LimitsCheck : public OptionVisitor {
+ public:
+  void number(std::string_view name, double& value, Limits limits, std::string_view) override {
+    check_number(name, value, limits);
+  }
+  void integer(std::string_view name, int& value, Limits limits, std::string_view) override {
+    check_number(name, value, limits);
+  }
+  void flag(std::string_view, bool&, std::string_view) override {}
+  void text(std::string_view, std::string&, std::string_view) override {}
+  void choice(std::string_view, int&, const std::vector<std::string>&, std::string_view) override {}
+};
+
+void check_motion(const Motion& motion, const std::string& where) {
+  const auto* keyed = std::get_if<KeyedMotion>(&motion);
+  if (keyed == nullptr) return;
+  if (keyed->keys.empty()) throw InputError(where, "its motion has no poses");
+  for (std::size_t i = 1; i < keyed->keys.size(); ++i) {
+    if (keyed->keys[i].time_s > keyed->keys[i - 1].time_s) continue;
+    throw InputError(where, fmt::format("the times of its poses must increase; {} s follows {} s",
+                                        keyed->keys[i].time_s, keyed->keys[i - 1].time_s));
+  }
+}
+
+bool has_extent(const Box& box) { return box.size_mm.allFinite() && box.size_mm.minCoeff() > 0; }
+bool has_extent(const Capsule& capsule) {
+  return capsule.from_mm.allFinite() && capsule.to_mm.allFinite() && capsule.radius_mm > 0;
+}
+bool has_extent(const Frustum& cone) {
+  return cone.height_mm > 0 && std::min(cone.bottom_radius_mm, cone.top_radius_mm) >= 0 &&
+         std::max(cone.bottom_radius_mm, cone.top_radius_mm) > 0;
+}
+
+void check_obstacle(const Obstacle& obstacle, const Cell& cell, const std::string& where) {
+  const std::string here = fmt::format("{}: obstacle `{}`", where, obstacle.name);
+  if (!std::visit([](const auto& shape) { return has_extent(shape); }, obstacle.shape)) {
+    throw InputError(here, "its sizes must be positive");
+  }
+  if (obstacle.body.empty()) return;
+  std::vector<std::string> names;
+  for (const Mover& mover : cell.movers) names.push_back(mover.body.name);
+  if (std::find(names.begin(), names.end(), obstacle.body) != names.end()) return;
+  throw InputError(here, fmt::format("it moves with body `{}`, which is not there; bodies are: {}",
+                                     obstacle.body, fmt::join(names, ", ")));
+}
+
+}  // namespace
+
+void describe(Sensor& sensor, OptionVisitor& visit) {
+  visit.integer("bits", sensor.bits, {8, 16}, "grey depth of the images: 8 or 16");
+  visit.number("full_well_e", sensor.full_well_e, {1, 1e9}, "electrons at full scale; sets the shot noise");
+  visit.number("read_noise_e", sensor.read_noise_e, {0, 1e6}, "read noise, electrons, 1 sigma");
+  visit.number("gain_spread", sensor.gain_spread, {0, 0.5},
+               "fixed-pattern gain from pixel to pixel, 1 sigma");
+  visit.number("offset_level", sensor.offset_level, {0, 0.9},
+               "offset of the electronics, share of full scale");
+  visit.number("blur_px", sensor.blur_px, {0, 20}, "sigma of the lens's Gaussian blur");
+  visit.number("exposure_s", sensor.exposure_s, {0, 10}, "time over which a picture gathers light");
+  visit.number("lost_frames", sensor.lost_frames, {0, 1}, "share of frames that each camera loses");
+}
+
+void describe(Light& light, OptionVisitor& visit) {
+  visit.number("target_level", light.target_level, {0, 2},
+               "brightness of a target seen square on, share of full scale");
+  visit.number("retro_falloff_deg", light.retro_falloff_deg, {0, 90},
+               "incidence at which a retro-reflective target has lost 63 %; 0 = painted, equally bright from "
+               "all sides");
+  visit.number("background_level", light.background_level, {0, 2},
+               "brightness of the background, share of full scale");
+  visit.number("gradient_x", light.gradient_x, {-2, 2},
+               "background's change from left to right, share of itself");
+  visit.number("gradient_y", light.gradient_y, {-2, 2},
+               "background's change from top to bottom, share of itself");
+  visit.number("vignetting", light.vignetting, {0, 1}, "share of the light lost in the image's corners");
+  visit.number("glints", light.glints, {0, 1000}, "mean number of false bright specks and streaks an image");
+}
+
+void describe(Timing& timing, OptionVisitor& visit) {
+  visit.integer("frames", timing.frames, {1, 1000000}, "how many pairs of images");
+  visit.number("rate_hz", timing.rate_hz, {1e-3, 1e5}, "pairs a second");
+}
+
+void describe(CameraPair& pair, OptionVisitor& visit) {
+  visit.integer("width_px", pair.width_px, {16, 65536}, "image width");
+  visit.integer("height_px", pair.height_px, {16, 65536}, "image height");
+  visit.number("focal_px", pair.focal_px, {1, 1e6}, "focal length over pixel pitch");
+  visit.number("baseline_mm", pair.baseline_mm, {1, 1e5}, "distance between the cameras");
+  visit.number("range_mm", pair.range_mm, {1, 1e6},
+               "where the two axes meet, from the middle of the cameras");
+}
+
+std::vector<Body> bodies_of(const Cell& cell) {
+  std::vector<Body> bodies;
+  for (const Mover& mover : cell.movers) bodies.push_back(mover.body);
+  return bodies;
+}
+
+void check_cell(const Cell& cell, const std::string& where) {
+  check_rig(cell.rig, where);
+  check_bodies(bodies_of(cell), where);
+  for (const Mover& mover : cell.movers) {
+    check_motion(mover.motion, fmt::format("{}: body `{}`", where, mover.body.name));
+  }
+  for (const Obstacle& obstacle : cell.obstacles) check_obstacle(obstacle, cell, where);
+  Cell copy = cell;
+  LimitsCheck limits;
+  try {
+    describe(copy.sensor, limits);
+    describe(copy.light, limits);
+    describe(copy.timing, limits);
+  } catch (const InputError& error) {
+    throw InputError(where, error.what());
+  }
+  if (cell.sensor.bits != 8 && cell.sensor.bits != 16) {
+    throw InputError(where, fmt::format("`bits` is {}; it must be 8 or 16", cell.sensor.bits));
+  }
+}
+
+StereoRig rig_of(const CameraPair& pair) {
+  StereoRig rig;
+  rig.left.fx = rig.left.fy = pair.focal_px;
+  rig.left.cx = 0.5 * (pair.width_px - 1);
+  rig.left.cy = 0.5 * (pair.height_px - 1);
+  rig.left.width_px = pair.width_px;
+  rig.left.height_px = pair.height_px;
+  rig.right = rig.left;
+  const double half = std::atan(0.5 * pair.baseline_mm / pair.range_mm);
+  const RigidMotion left_from_middle = {exp_rotation({0, -half, 0}),
+                                        exp_rotation({0, -half, 0}) * Vec3(0.5 * pair.baseline_mm, 0, 0)};
+  const RigidMotion right_from_middle = {exp_rotation({0, half, 0}),
+                                         exp_rotation({0, half, 0}) * Vec3(-0.5 * pair.baseline_mm, 0, 0)};
+  rig.right_from_left = right_from_middle * left_from_middle.inverse();
+  return rig;
+}
+
+RigidMotion tracker_from_frame(const SeenFrom& seen, const StereoRig& rig) {
+  // The middle camera: halfway between the two, looking along the mean of their axes, its x along the
+  // baseline.
+  const RigidMotion left_from_right = rig.right_from_left.inverse();
+  const Vec3 middle = 0.5 * left_from_right.translation;
+  Mat3 axes;
+  axes.col(0) = left_from_right.translation.normalized();
+  const Vec3 ahead = Vec3::UnitZ() + left_from_right.rotation * Vec3::UnitZ();
+  axes.col(2) = (ahead - ahead.dot(axes.col(0)) * axes.col(0)).normalized();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  const RigidMotion tracker_from_middle = {quaternion_from_matrix(axes), middle};
+
+  const double ce = std::cos(seen.elevation_rad), se = std::sin(seen.elevation_rad);
+  const double ca = std::cos(seen.azimuth_rad), sa = std::sin(seen.azimuth_rad);
+  const Vec3 towards_camera(ce * ca, ce * sa, se);
+  Mat3 frame_axes;  // the middle camera's axes in the frame
+  frame_axes.col(2) = -towards_camera;
+  frame_axes.col(0) = Vec3(-sa, ca, 0);
+  frame_axes.col(1) = frame_axes.col(2).cross(frame_axes.col(0));
+  const RigidMotion frame_from_middle = {quaternion_from_matrix(frame_axes),
+                                         seen.at_mm + seen.range_mm * towards_camera};
+  return tracker_from_middle * frame_from_middle.inverse();
+}
+
+}  // namespace asterism
