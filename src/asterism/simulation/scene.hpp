@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "asterism/cell/cell.hpp"
+#include "asterism/simulation/outline.hpp"
+#include "asterism/simulation/rays.hpp"
+
+namespace asterism {
+
+/// One target as one camera has it at one moment; lengths in mm in the camera's frame.
+struct SceneDisc {
+  int body = 0, target = 0;
+  DiscPlace place;
+  double incidence_rad = 0;  // between its normal and the way to the camera
+  double brightness = 0;     // relative to one seen square on; 0 from behind
+};
+
+struct SceneSolid {
+  Shape shape;
+  RigidMotion shape_from_camera;
+  Ball ball;  // around it, in the camera's frame
+  std::optional<double> level;
+};
+
+/// The cell before one camera at one moment.
+struct Scene {
+  std::vector<SceneDisc> discs;
+  std::vector<SceneSolid> solids;
+};
+
+/// A target without a normal faces each camera; one without a diameter is a point (radius 0).
+[[nodiscard]] Scene scene_of(const Cell& cell, Side side, double time_s);
+
+/// The solids and foreign targets that may hide part of disc `index`: the others' balls are too far from
+/// the way to the camera.
+class Hiding {
+ public:
+  Hiding(const Scene& scene, std::size_t index);
+  [[nodiscard]] bool possible() const { return !solids_.empty() || !plates_.empty(); }
+  /// Whether a point of the disc is hidden from the camera.
+  [[nodiscard]] bool hides(const Vec3& on_disc) const;
+
+ private:
+  std::vector<const SceneSolid*> solids_;
+  std::vector<const DiscPlace*> plates_;
+};
+
+/// Share of the disc that neither solids, other bodies' targets nor the image's edge keep from the camera;
+/// 0 when it faces away. Told by 250 points spread evenly over it, 4000 when they differ.
+[[nodiscard]] double visible_share(const Scene& scene, std::size_t index, const Lens& lens);
+
+}  // namespace asterism

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "asterism/simulation/simulate.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "asterism/simulation/centres.hpp"
+#include "asterism/simulation/streams.hpp"
+#include "asterism/simulation/truth.hpp"
+
+namespace asterism {
+
+void describe(SimulationOptions& options, OptionVisitor& visit) {
+  visit.choice_of("level", options.level, {"images", "centres"}, "what to make: images, or centres alone");
+  visit.number("sigma_px", options.sigma_px, {0, 100},
+               "noise of each centre along each axis (level centres)");
+  visit.number("dropout", options.dropout, {0, 1},
+               "share of visible targets missed at random (level centres)");
+  visit.number("clutter", options.clutter, {0, 1e5}, "mean number of false centres an image (level centres)");
+}
+
+Simulator::Simulator(Cell cell, const SimulationOptions& options)
+    : cell_(std::move(cell)), options_(options) {
+  check_cell(cell_, cell_.name);
+  if (options_.level == SimulationLevel::Centres) return;
+  for (const Mover& mover : cell_.movers) {
+    for (const Target& target : mover.body.targets) {
+      if (target.diameter_mm) continue;
+      throw InputError(
+          cell_.name,
+          fmt::format("target `{}` of body `{}` has no diameter_mm; without it no image can be drawn",
+                      target.id, mover.body.name));
+    }
+  }
+}
+
+SimulatedFrame Simulator::frame(int number) const {
+  const double time_s = number / cell_.timing.rate_hz;
+  SimulatedFrame made;
+  made.truth = truth_of(cell_, time_s);
+  made.image.frame = made.centres.frame = number;
+  made.image.time_s = made.centres.time_s = time_s;
+  for (const Side side : {Side::Left, Side::Right}) {
+    const bool lost =
+        stream_of(options_.seed, number, side, Purpose::LostFrames).uniform() < cell_.sensor.lost_frames;
+    if (lost) continue;
+    auto& centres = side == Side::Left ? made.centres.left : made.centres.right;
+    centres = simulate_centres(cell_, made.truth, side, number, options_);
+  }
+  return made;
+}
+
+}  // namespace asterism

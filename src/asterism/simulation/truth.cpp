@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "asterism/simulation/truth.hpp"
+
+#include "asterism/simulation/scene.hpp"
+
+namespace asterism {
+namespace {
+
+bool inside(const Lens& lens, const Outline& outline) {
+  for (const Vec2& px : outline) {
+    if (px.x() < -0.5 || px.y() < -0.5 || px.x() > lens.width_px - 0.5 || px.y() > lens.height_px - 0.5)
+      return false;
+  }
+  return true;
+}
+
+/// How far the image of the target's centre goes during the exposure.
+double way_px(const Cell& cell, const TargetTruth& truth, double time_s) {
+  const auto body = static_cast<std::size_t>(truth.body);
+  const Vec3& position = cell.movers[body].body.targets[static_cast<std::size_t>(truth.target)].position;
+  const auto at = [&](double t) {
+    const RigidMotion camera_from_body =
+        cell.rig.camera_from_tracker(truth.side) * pose_at(cell.movers[body].motion, t);
+    return project(cell.rig.lens(truth.side), camera_from_body * position);
+  };
+  const auto begin = at(time_s - 0.5 * cell.sensor.exposure_s);
+  const auto end = at(time_s + 0.5 * cell.sensor.exposure_s);
+  return begin && end ? (end->px - begin->px).norm() : 0.0;
+}
+
+void add_targets(const Cell& cell, Side side, double time_s, FrameTruth& truth) {
+  const Lens& lens = cell.rig.lens(side);
+  const Scene scene = scene_of(cell, side, time_s);
+  for (std::size_t i = 0; i < scene.discs.size(); ++i) {
+    const SceneDisc& disc = scene.discs[i];
+    const auto centre = project(lens, disc.place.centre);
+    const Outline outline = outline_of_disc(lens, disc.place);
+    if (!centre || outline.empty()) continue;
+    TargetTruth target;
+    target.body = disc.body;
+    target.target = disc.target;
+    target.side = side;
+    target.centre_px = centre->px;
+    target.image = disc.place.radius_mm > 0 ? moments_of(outline).ellipse : Ellipse{centre->px, 0, 0, 0};
+    target.incidence_rad = disc.incidence_rad;
+    target.brightness = disc.brightness;
+    target.in_image = inside(lens, outline);
+    target.visible = visible_share(scene, i, lens);
+    target.blur_px = way_px(cell, target, time_s);
+    target.in_camera = disc.place.centre;
+    truth.targets.push_back(target);
+  }
+}
+
+}  // namespace
+
+FrameTruth truth_of(const Cell& cell, double time_s) {
+  FrameTruth truth;
+  for (const Mover& mover : cell.movers) truth.tracker_from_body.push_back(pose_at(mover.motion, time_s));
+  add_targets(cell, Side::Left, time_s, truth);
+  add_targets(cell, Side::Right, time_s, truth);
+  return truth;
+}
+
+}  // namespace asterism
