@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "asterism/tracking/filter.hpp"
+
+#include "asterism/statistics/distributions.hpp"
+#include "asterism/tracking/motion_model.hpp"
+
+namespace asterism {
+
+/// The state after the last pose taken in, and what of its covariance does not average out.
+struct PoseFilter::Memory {
+  MotionState state;
+  Mat6 systematic;
+  bool fresh;  // one pose alone: the twist is not known yet
+};
+
+namespace {
+
+PoseEstimate estimate_of(const MotionState& state, const Mat6& systematic) {
+  PoseEstimate estimate;
+  estimate.tracker_from_body = state.tracker_from_body;
+  estimate.covariance = state.covariance.topLeftCorner<6, 6>() + systematic;
+  estimate.systematic = systematic;
+  return estimate;
+}
+
+}  // namespace
+
+void describe(FilterOptions& options, OptionVisitor& visit) {
+  visit.number("rate_wander_deg_s", options.rate_wander_deg_s, {0, 1e6},
+               "by how much the turning rate changes in one second");
+  visit.number("speed_wander_mm_s", options.speed_wander_mm_s, {0, 1e7},
+               "by how much the speed changes in one second");
+  visit.number("initial_rate_deg_s", options.initial_rate_deg_s, {0, 1e6},
+               "turning rate a body may start with");
+  visit.number("initial_speed_mm_s", options.initial_speed_mm_s, {0, 1e7}, "speed a body may start with");
+  visit.number("gate_probability", options.gate_probability, {1e-12, 0.1},
+               "of refusing a pose that fits the motion");
+  visit.number("coast_max_s", options.coast_max_s, {0, 3600},
+               "how long a body that is not seen is carried on");
+}
+
+PoseFilter::PoseFilter(const FilterOptions& options) : options_(options) {}
+PoseFilter::~PoseFilter() = default;
+PoseFilter::PoseFilter(PoseFilter&&) noexcept = default;
+PoseFilter& PoseFilter::operator=(PoseFilter&&) noexcept = default;
+
+std::optional<PoseEstimate> PoseFilter::predict(double time_s) const {
+  if (!memory_ || time_s - memory_->state.time_s > options_.coast_max_s) return std::nullopt;
+  return estimate_of(predicted(memory_->state, time_s, options_).state, memory_->systematic);
+}
+
+BodyPose PoseFilter::update(double time_s, const BodyPose& measured) {
+  BodyPose filtered = measured;
+  if (memory_ && time_s - memory_->state.time_s > options_.coast_max_s) memory_.reset();
+  const bool seen = measured.status == PoseStatus::Ok || measured.status == PoseStatus::Partial;
+  if (seen) {
+    const PoseEstimate& raw = measured.estimate.value();
+    const Mat6 noise = raw.covariance - raw.systematic;
+    std::optional<Update> update;
+    if (memory_)
+      update = updated(memory_->state, memory_->fresh, time_s, raw.tracker_from_body, noise, options_);
+    const bool fits = update && update->nis < chi_square_quantile(1 - options_.gate_probability, 6);
+    misfits_ = fits || !memory_ ? 0 : misfits_ + 1;
+    if (!memory_ || misfits_ > 1) {
+      memory_ = std::make_unique<Memory>(
+          Memory{first_state(time_s, raw.tracker_from_body, noise, options_), raw.systematic, true});
+      misfits_ = 0;
+      return filtered;
+    }
+    if (fits) {
+      *memory_ = {update->state, raw.systematic, false};
+      filtered.estimate = estimate_of(memory_->state, memory_->systematic);
+      return filtered;
+    }
+  }
+  filtered.estimate = predict(time_s);
+  filtered.status = filtered.estimate ? PoseStatus::Predicted : seen ? PoseStatus::Lost : measured.status;
+  filtered.targets = 0;
+  filtered.rms_px = 0;
+  return filtered;
+}
+
+}  // namespace asterism

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "asterism/measurement/pose.hpp"
+#include "asterism/tracking/filter.hpp"
+
+// How a body moves between frames; shared by the filter and the smoother.
+
+namespace asterism {
+
+using Vec12 = Eigen::Matrix<double, 12, 1>;
+using Mat12 = Eigen::Matrix<double, 12, 12>;
+
+/// A pose with its twist: turning rate (rad/s) and velocity of the body's origin (mm/s), both along the
+/// body's axes. With a constant twist the body moves on a screw, as a platform turning about any pivot does.
+/// Covariance: the pose's error as in geometry/rigid_motion.hpp, then the twist's (additive).
+struct MotionState {
+  double time_s = 0;
+  RigidMotion tracker_from_body;
+  Vec6 twist = Vec6::Zero();
+  Mat12 covariance = Mat12::Zero();
+};
+
+/// At rest within the options' initial rates, measured once.
+[[nodiscard]] MotionState first_state(double time_s, const RigidMotion& measured, const Mat6& noise,
+                                      const FilterOptions& options);
+
+struct Prediction {
+  MotionState state;
+  Mat12 transition;  // ∂ its error / ∂ the error before
+};
+/// R ← R exp(ω dt), t ← t + R V(ω dt) v dt; the twist wanders by white acceleration.
+[[nodiscard]] Prediction predicted(const MotionState& state, double time_s, const FilterOptions& options);
+
+/// A state carried on to a measurement's time and corrected by it.
+struct Update {
+  Prediction before;
+  MotionState state;
+  double nis;  // innovationᵀ S⁻¹ innovation; χ² with six degrees
+};
+/// `fresh`: the state is a first_state; its twist is then set to what the two poses tell before linearising,
+/// for the product of an unknown rate and an unknown speed is not linear.
+[[nodiscard]] Update updated(const MotionState& state, bool fresh, double time_s, const RigidMotion& measured,
+                             const Mat6& noise, const FilterOptions& options);
+
+/// The error that takes `from` to `to`, and the state moved by an error.
+[[nodiscard]] Vec12 difference(const MotionState& to, const MotionState& from);
+[[nodiscard]] MotionState moved(const MotionState& state, const Vec12& error);
+
+}  // namespace asterism
