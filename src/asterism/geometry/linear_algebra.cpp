@@ -70,6 +70,12 @@ std::optional<MatX> inverse_positive(const MatX& a) {
   return MatX(factor->solve(MatX::Identity(a.rows(), a.cols())));
 }
 
+std::optional<double> log_determinant_positive(const Mat6& a) {
+  const auto factor = cholesky(a);
+  if (!factor) return std::nullopt;
+  return 2 * factor->matrixLLT().diagonal().array().log().sum();
+}
+
 VecX least_squares(const MatX& a, const VecX& b) { return a.colPivHouseholderQr().solve(b); }
 
 }  // namespace asterism

@@ -43,6 +43,9 @@ struct Svd3 {
 [[nodiscard]] std::optional<Mat6> inverse_positive(const Mat6& a);
 [[nodiscard]] std::optional<MatX> inverse_positive(const MatX& a);
 
+/// ln det of a symmetric positive definite matrix. Empty when it is not.
+[[nodiscard]] std::optional<double> log_determinant_positive(const Mat6& a);
+
 /// Least squares A x ≈ b by QR with column pivoting.
 [[nodiscard]] VecX least_squares(const MatX& a, const VecX& b);
 
