@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "asterism/tracking/identification.hpp"
+
+#include <algorithm>
+
+#include "asterism/core/result.hpp"
+#include "asterism/tracking/identification_assignment.hpp"
+#include "asterism/tracking/identification_search.hpp"
+
+namespace asterism {
+namespace {
+
+std::vector<int> targets_of(std::span<const Correspondence> labels) {
+  std::vector<int> targets;
+  for (const auto& label : labels) targets.push_back(label.pattern);
+  return targets;
+}
+
+/// What is told of a choice; refitted when contested labels were left out.
+std::optional<BodyLabels> report(const Choice& choice, const LabellingSearch& search, const Scene& scene,
+                                 const BodyCatalogue& catalogue, const IdentificationOptions& options,
+                                 const std::optional<PriorPose>& prior) {
+  const Labelling& whole = search.labellings[choice.labelling];
+  if (!is_evident(whole, catalogue, options)) return std::nullopt;
+  const auto body = static_cast<std::size_t>(whole.body);
+  BodyLabels told{whole.body, choice.status, {}, {}, 0, 0};
+  if (!search.complete[body]) told.status = LabelStatus::Ambiguous;
+
+  Labelling kept = whole;
+  if (told.status == LabelStatus::Ok && choice.certain.size() < whole.labels.size()) {
+    const auto certain = labelling_of(whole.body, choice.certain, scene, catalogue, options, prior);
+    if (certain && is_evident(*certain, catalogue, options)) {
+      kept = *certain;
+    } else {
+      told.status = LabelStatus::Ambiguous;
+    }
+  }
+  for (const auto& label : kept.labels) told.points.push_back({label.scene, label.pattern});
+  told.tracker_from_body = kept.fit.tracker_from_body;
+  told.rms_mm = kept.fit.rms_mm;
+  told.margin_mm = catalogue.margin_mm(body, targets_of(kept.labels));
+  if (choice.rival_rms_mm && told.status == LabelStatus::Ambiguous) {
+    told.margin_mm = std::min(told.margin_mm, std::max(0.0, *choice.rival_rms_mm - told.rms_mm));
+  }
+  return told;
+}
+
+}  // namespace
+
+void describe(IdentificationOptions& options, OptionVisitor& visit) {
+  visit.number("sigma_floor_mm", options.sigma_floor_mm, {0, 100},
+               "added in quadrature to each point: what of points and bodies nobody stated");
+  visit.number("default_sigma_mm", options.default_sigma_mm, {1e-6, 100},
+               "per axis, of points whose covariance is not known");
+  visit.number("gate_sigma", options.gate_sigma, {1, 20},
+               "how far pair distances may differ, in standard deviations");
+  visit.number("fit_sigma", options.fit_sigma, {1, 20},
+               "how rare a rigid fit may be, in standard deviations");
+  visit.number("decisive_chi_square", options.decisive_chi_square, {0, 1e4},
+               "how much better than any other a labelling must be, as -2 ln of the odds");
+  visit.number("max_accidental", options.max_accidental, {0, 1},
+               "how many accidental fits as good may be expected in a frame");
+  visit.number("max_rotation_sigma_deg", options.max_rotation_sigma_deg, {0.001, 90},
+               "labels that leave the attitude less certain than this fix no pose");
+  visit.integer("min_targets", options.min_targets, {3, 1000},
+                "fewest labelled targets without a prior pose");
+  visit.integer("max_points", options.max_points, {3, 1000000},
+                "with more points than this, only bodies with a prior pose are sought");
+  visit.number("margin_cap_mm", options.margin_cap_mm, {0, 1e6}, "margins above this are given as this");
+}
+
+std::vector<BodyLabels> identify(std::span<const Point> points, const BodyCatalogue& catalogue,
+                                 const IdentificationOptions& options,
+                                 std::span<const std::optional<PriorPose>> priors) {
+  require(priors.empty() || priors.size() == catalogue.bodies().size(),
+          "priors are given for every body or none");
+  const Scene scene = scene_of(points, options);
+  if (scene.points.size() < 3) return {};
+  const LabellingSearch search = find_labellings(scene, catalogue, options, priors);
+  const auto choices =
+      choose_disjoint(search.labellings, scene.claims, catalogue.bodies().size(), options.decisive_chi_square,
+                      static_cast<std::size_t>(options.min_targets));
+  std::vector<BodyLabels> found;
+  for (const Choice& choice : choices) {
+    const auto body = static_cast<std::size_t>(search.labellings[choice.labelling].body);
+    const auto prior = priors.empty() ? std::optional<PriorPose>() : priors[body];
+    auto told = report(choice, search, scene, catalogue, options, prior);
+    if (told) found.push_back(std::move(*told));
+  }
+  return found;
+}
+
+}  // namespace asterism

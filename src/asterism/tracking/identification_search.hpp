@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "asterism/tracking/identification.hpp"
+#include "asterism/tracking/identification_fit.hpp"
+
+namespace asterism {
+
+/// The points of a frame as identification sees them: covariances with the floor added, and which points
+/// exclude one another.
+struct Scene {
+  std::vector<UncertainPoint> points;
+  std::vector<Claims> claims;  // left and right centre
+  double density_per_mm3 = 0;  // of the frame as a whole
+};
+
+/// Throws InputError for a point that is not finite or whose covariance is not one.
+[[nodiscard]] Scene scene_of(std::span<const Point> points, const IdentificationOptions& options);
+
+/// One way to see one body in a scene.
+struct Labelling {
+  int body;
+  std::vector<Correspondence> labels;  // target, point; ascending
+  LabelFit fit;
+  double cost = 0;            // −2 ln of its odds against "these points are clutter"; the lower the better
+  double log_accidental = 0;  // ln of how many such fits chance would make
+  bool near_prior = false;
+};
+
+struct LabellingSearch {
+  std::vector<Labelling> labellings;
+  std::vector<bool> complete;  // by body; false: a limit was met, so a rival may have gone unseen
+};
+
+/// All labellings of all bodies that fit.
+[[nodiscard]] LabellingSearch find_labellings(const Scene& scene, const BodyCatalogue& catalogue,
+                                              const IdentificationOptions& options,
+                                              std::span<const std::optional<PriorPose>> priors);
+
+/// Fits `labels`, leaving out one after the other of those that do not fit. Empty when fewer than three
+/// are left or they do not fix a pose.
+[[nodiscard]] std::optional<Labelling> labelling_of(int body, std::vector<Correspondence> labels,
+                                                    const Scene& scene, const BodyCatalogue& catalogue,
+                                                    const IdentificationOptions& options,
+                                                    const std::optional<PriorPose>& prior);
+
+/// Enough targets, and more than chance would give.
+[[nodiscard]] bool is_evident(const Labelling& labelling, const BodyCatalogue& catalogue,
+                              const IdentificationOptions& options);
+
+}  // namespace asterism
