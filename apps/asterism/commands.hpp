@@ -18,5 +18,8 @@ struct Common;
 //     const auto options = step_options<DetectionOptions>(*command);
 //     on_call(*command, common, [=, &common] { run(*call, options(), common); });
 //   }
+void add_detect(CLI::App& root, Common& common);
+void add_triangulate(CLI::App& root, Common& common);
+void add_evaluate(CLI::App& root, Common& common);
 
 }  // namespace asterism::app

@@ -13,7 +13,7 @@ namespace asterism {
 namespace {
 
 Mat3 covariance_of(const CsvTable& table, std::size_t row) {
-  if (!table.optional_number(row, "cxx")) return kUnstatedSigmaMm * kUnstatedSigmaMm * Mat3::Identity();
+  if (!table.optional_number(row, "cxx")) return Mat3::Zero();
   const auto at = [&](const char* column) { return table.number(row, column); };
   Mat3 covariance;
   covariance << at("cxx"), at("cxy"), at("cxz"), at("cxy"), at("cyy"), at("cyz"), at("cxz"), at("cyz"),

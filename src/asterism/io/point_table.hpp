@@ -16,10 +16,8 @@ struct FramePoints {
   std::vector<Point> points;
 };
 
-/// Taken for each axis where a file gives no covariance.
-inline constexpr double kUnstatedSigmaMm = 0.1;
-
-/// Only `frame,point,x_mm,y_mm,z_mm` must be there. Points must count from 0 without gaps in each frame.
+/// Only `frame,point,x_mm,y_mm,z_mm` must be there. Points must count from 0 without gaps in each
+/// frame. A covariance that is not given is zero: not known.
 [[nodiscard]] std::vector<FramePoints> read_points(const std::filesystem::path& file);
 
 /// Writes frames as they come; the file is whole after finish.
