@@ -16,8 +16,20 @@ std::vector<int> targets_of(std::span<const Correspondence> labels) {
   return targets;
 }
 
+/// Can this labelling be told from every wrong one by the layout alone, whatever this frame's noise happened
+/// to favour? The best wrong one is then expected `decisive` worse in χ².
+bool is_identifiable(const Labelling& labelling, double margin_mm, const PointScene& scene, double decisive) {
+  double variance = 0;
+  for (const auto& label : labelling.labels) {
+    variance += scene.points[static_cast<std::size_t>(label.scene)].covariance.trace() / 3.0;
+  }
+  const auto count = static_cast<double>(labelling.labels.size());
+  const double scale = std::max(1.0, labelling.fit.chi_square / (3.0 * count - 6.0));
+  return count * margin_mm * margin_mm > decisive * scale * variance / count;
+}
+
 /// What is told of a choice; refitted when contested labels were left out.
-std::optional<BodyLabels> report(const Choice& choice, const LabellingSearch& search, const Scene& scene,
+std::optional<BodyLabels> report(const Choice& choice, const LabellingSearch& search, const PointScene& scene,
                                  const BodyCatalogue& catalogue, const IdentificationOptions& options,
                                  const std::optional<PriorPose>& prior) {
   const Labelling& whole = search.labellings[choice.labelling];
@@ -28,7 +40,8 @@ std::optional<BodyLabels> report(const Choice& choice, const LabellingSearch& se
 
   Labelling kept = whole;
   if (told.status == LabelStatus::Ok && choice.certain.size() < whole.labels.size()) {
-    const auto certain = labelling_of(whole.body, choice.certain, scene, catalogue, options, prior);
+    const auto certain =
+        labelling_of(whole.body, choice.certain, choice.certain.size(), scene, catalogue, options, prior);
     if (certain && is_evident(*certain, catalogue, options)) {
       kept = *certain;
     } else {
@@ -39,6 +52,10 @@ std::optional<BodyLabels> report(const Choice& choice, const LabellingSearch& se
   told.tracker_from_body = kept.fit.tracker_from_body;
   told.rms_mm = kept.fit.rms_mm;
   told.margin_mm = catalogue.margin_mm(body, targets_of(kept.labels));
+  const bool placed = kept.near_prior && kept.prior_gain > options.decisive_chi_square;
+  if (!placed && !is_identifiable(kept, told.margin_mm, scene, options.decisive_chi_square)) {
+    told.status = LabelStatus::Ambiguous;
+  }
   if (choice.rival_rms_mm && told.status == LabelStatus::Ambiguous) {
     told.margin_mm = std::min(told.margin_mm, std::max(0.0, *choice.rival_rms_mm - told.rms_mm));
   }
@@ -74,7 +91,7 @@ std::vector<BodyLabels> identify(std::span<const Point> points, const BodyCatalo
                                  std::span<const std::optional<PriorPose>> priors) {
   require(priors.empty() || priors.size() == catalogue.bodies().size(),
           "priors are given for every body or none");
-  const Scene scene = scene_of(points, options);
+  const PointScene scene = scene_of(points, options);
   if (scene.points.size() < 3) return {};
   const LabellingSearch search = find_labellings(scene, catalogue, options, priors);
   const auto choices =

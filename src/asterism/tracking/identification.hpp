@@ -23,7 +23,7 @@ struct IdentificationOptions {
   double default_sigma_mm = 0.25;
   double gate_sigma = 7.0;
   double fit_sigma = 6.0;
-  double decisive_chi_square = 36.0;
+  double decisive_chi_square = 28.0;
   double max_accidental = 1e-6;
   double max_rotation_sigma_deg = 5.0;
   int min_targets = 4;

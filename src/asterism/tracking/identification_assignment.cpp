@@ -131,6 +131,17 @@ std::vector<Group> groups_of(std::span<const Labelling> labellings, std::span<co
   return groups;
 }
 
+/// How much larger the residuals of the chosen labellings are than their covariances say, at least 1.
+double unstated_variance(const std::vector<Choice>& choices, std::span<const Labelling> labellings) {
+  double largest = 1;
+  for (const Choice& choice : choices) {
+    const Labelling& labelling = labellings[choice.labelling];
+    const double degrees = 3.0 * static_cast<double>(labelling.labels.size()) - 6.0;
+    largest = std::max(largest, labelling.fit.chi_square / degrees);
+  }
+  return largest;
+}
+
 /// What of each choice outlasts this rival selection.
 void contest(std::vector<Choice>& choices, const Selection& chosen, const Selection& rival,
              std::span<const Labelling> labellings) {
@@ -163,10 +174,12 @@ std::vector<Choice> choose_in(const Group& group, std::span<const Labelling> lab
     if (option != kNone)
       choices.push_back({option, LabelStatus::Ok, labellings[option].labels, std::nullopt});
   }
+  // Covariances that prove too small make every difference look too decisive.
+  const double rival_below = chosen->cost + decisive * unstated_variance(choices, labellings);
   for (std::size_t body = 0; body < group.of_body.size(); ++body) {
     for (const std::size_t option : group.of_body[body]) {
       if (option == chosen->taken[body]) continue;
-      const auto rival = selector.best(chosen->cost + decisive, body, option);
+      const auto rival = selector.best(rival_below, body, option);
       if (rival) contest(choices, *chosen, *rival, labellings);
     }
   }

@@ -43,7 +43,6 @@ Normal linearise(std::span<const Correspondence> labels, std::span<const Uncerta
   const Mat3 rotation = fit.tracker_from_body.rotation.toRotationMatrix();
   Normal normal;
   double squares = 0;
-  double worst = -1;
   fit.chi_square = 0;
   fit.log_det_covariances = 0;
   for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -61,13 +60,9 @@ Normal linearise(std::span<const Correspondence> labels, std::span<const Uncerta
     normal.information.bottomRightCorner<3, 3>() += weight;
     normal.gradient.head<3>() += turned.cross(weighted);
     normal.gradient.tail<3>() += weighted;
-    const double share = residual.dot(weighted);
-    fit.chi_square += share;
+    fit.chi_square += residual.dot(weighted);
     squares += residual.squaredNorm();
     fit.log_det_covariances += std::log(covariance.determinant());
-    if (share <= worst) continue;
-    worst = share;
-    fit.worst = i;
   }
   normal.information.bottomLeftCorner<3, 3>() = normal.information.topRightCorner<3, 3>().transpose();
   fit.rms_mm = std::sqrt(squares / static_cast<double>(labels.size()));

@@ -16,7 +16,6 @@ struct LabelFit {
   double chi_square = 0;  // of the 3k coordinates; 3k − 6 degrees of freedom
   double rms_mm = 0;
   double log_det_covariances = 0;  // Σ ln |Σᵢ|, mm²
-  std::size_t worst = 0;           // the label with the largest share of χ²
 };
 
 /// Maximises Π N(pᵢ; R qᵢ + t, Σᵢ + R Cᵢ Rᵀ) over proper rotations: Kabsch for a start, then Gauss–Newton

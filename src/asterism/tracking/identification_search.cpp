@@ -35,7 +35,7 @@ double frame_density(std::span<const UncertainPoint> points) {
 }
 
 /// The frame's density, or that of the points near the body which it does not explain.
-double density_beside(const Labelling& labelling, const Scene& scene, double reach_mm) {
+double density_beside(const Labelling& labelling, const PointScene& scene, double reach_mm) {
   Vec3 middle = Vec3::Zero();
   for (const auto& label : labelling.labels)
     middle += scene.points[static_cast<std::size_t>(label.scene)].position;
@@ -57,29 +57,30 @@ bool fixes_a_pose(const LabelFit& fit, double max_rotation_sigma_deg) {
 
 struct PriorFit {
   double cost;  // −2 ln of the density of poses there
+  double gain;  // by how much that is less than for a pose far from the prior
   bool near;
   double log_volume;  // of the poses that would have been near
 };
 
 PriorFit weigh_prior(const LabelFit& fit, const std::optional<PriorPose>& prior, double sigma) {
   const double anywhere = 2.0 * std::log(kPoseVolume);
-  if (!prior) return {anywhere, false, 0};
+  if (!prior) return {anywhere, 0, false, 0};
   const double astray = anywhere - 2.0 * std::log(kPriorAstray);
   const auto of_fit = inverse_positive(fit.information);
-  if (!of_fit) return {astray, false, 0};
+  if (!of_fit) return {astray, 0, false, 0};
   const Mat6 covariance = prior->covariance + *of_fit;
   const Vec6 off = difference(fit.tracker_from_body, prior->tracker_from_body);
   const auto scaled = solve_positive(covariance, off);
   const auto log_det = log_determinant_positive(covariance);
-  if (!scaled || !log_det) return {astray, false, 0};
+  if (!scaled || !log_det) return {astray, 0, false, 0};
   const double distance = off.dot(*scaled);
   const double cost = distance + *log_det + 6.0 * log_two_pi();
   const double limit = chi_square_limit(sigma, 6);
-  return {std::min(cost, astray), distance < limit && cost < astray,
+  return {std::min(cost, astray), std::max(0.0, astray - cost), distance < limit && cost < astray,
           log_ball_volume(6, std::sqrt(limit)) + 0.5 * *log_det};
 }
 
-void weigh(Labelling& labelling, const Scene& scene, const BodyCatalogue& catalogue,
+void weigh(Labelling& labelling, const PointScene& scene, const BodyCatalogue& catalogue,
            const IdentificationOptions& options, const std::optional<PriorPose>& prior) {
   const auto body = static_cast<std::size_t>(labelling.body);
   const std::size_t labels = labelling.labels.size();
@@ -92,6 +93,7 @@ void weigh(Labelling& labelling, const Scene& scene, const BodyCatalogue& catalo
       static_cast<double>(labels) * (3.0 * log_two_pi() + 2.0 * std::log(scene.density_per_mm3)) + log_det -
       6.0 * log_two_pi() + at.cost;
   labelling.near_prior = at.near;
+  labelling.prior_gain = at.gain;
 
   const std::size_t targets = catalogue.targets(body).size();
   const Clutter clutter{static_cast<double>(scene.points.size()),
@@ -104,7 +106,7 @@ void weigh(Labelling& labelling, const Scene& scene, const BodyCatalogue& catalo
 
 /// Correspondences that a prior allows, and which of them agree.
 std::vector<CompatiblePair> pairs_near(const PriorPose& prior, std::span<const UncertainPoint> targets,
-                                       const Scene& scene, const IdentificationOptions& options) {
+                                       const PointScene& scene, const IdentificationOptions& options) {
   std::vector<Correspondence> allowed;
   const double limit = chi_square_limit(options.fit_sigma, 3);
   for (std::size_t t = 0; t < targets.size(); ++t) {
@@ -137,6 +139,24 @@ std::vector<CompatiblePair> pairs_near(const PriorPose& prior, std::span<const U
   return pairs;
 }
 
+/// Takes out the label without which the others fit best. Empty when none of them fix a pose.
+Result<LabelFit, RigidFitFailure> fit_without_one(std::vector<Correspondence>& labels,
+                                                  std::span<const UncertainPoint> targets,
+                                                  std::span<const UncertainPoint> points) {
+  Result<LabelFit, RigidFitFailure> best = because(RigidFitFailure::Collinear);
+  std::vector<Correspondence> kept;
+  for (std::size_t out = 0; out < labels.size(); ++out) {
+    std::vector<Correspondence> others = labels;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(out));
+    const auto fit = fit_labels(others, targets, points);
+    if (!fit || (best && fit->chi_square >= best->chi_square)) continue;
+    best = fit;
+    kept = std::move(others);
+  }
+  labels = std::move(kept);
+  return best;
+}
+
 void add(LabellingSearch& search, Labelling labelling) {
   const bool known =
       std::any_of(search.labellings.begin(), search.labellings.end(), [&](const Labelling& other) {
@@ -147,8 +167,8 @@ void add(LabellingSearch& search, Labelling labelling) {
 
 }  // namespace
 
-Scene scene_of(std::span<const Point> points, const IdentificationOptions& options) {
-  Scene scene;
+PointScene scene_of(std::span<const Point> points, const IdentificationOptions& options) {
+  PointScene scene;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& point = points[i];
     Mat3 covariance = point.covariance;
@@ -168,13 +188,13 @@ Scene scene_of(std::span<const Point> points, const IdentificationOptions& optio
   return scene;
 }
 
-std::optional<Labelling> labelling_of(int body, std::vector<Correspondence> labels, const Scene& scene,
-                                      const BodyCatalogue& catalogue, const IdentificationOptions& options,
+std::optional<Labelling> labelling_of(int body, std::vector<Correspondence> labels, std::size_t fewest,
+                                      const PointScene& scene, const BodyCatalogue& catalogue,
+                                      const IdentificationOptions& options,
                                       const std::optional<PriorPose>& prior) {
   const auto targets = catalogue.targets(static_cast<std::size_t>(body));
-  while (labels.size() >= 3) {
-    const auto fit = fit_labels(labels, targets, scene.points);
-    if (!fit) return std::nullopt;
+  auto fit = fit_labels(labels, targets, scene.points);
+  while (fit) {
     const double degrees = 3.0 * static_cast<double>(labels.size()) - 6.0;
     if (fit->chi_square < chi_square_limit(options.fit_sigma, degrees)) {
       if (!fixes_a_pose(*fit, options.max_rotation_sigma_deg)) return std::nullopt;
@@ -182,7 +202,8 @@ std::optional<Labelling> labelling_of(int body, std::vector<Correspondence> labe
       weigh(labelling, scene, catalogue, options, prior);
       return labelling;
     }
-    labels.erase(labels.begin() + static_cast<std::ptrdiff_t>(fit->worst));
+    if (labels.size() <= std::max<std::size_t>(fewest, 3)) return std::nullopt;
+    fit = fit_without_one(labels, targets, scene.points);
   }
   return std::nullopt;
 }
@@ -195,7 +216,7 @@ bool is_evident(const Labelling& labelling, const BodyCatalogue& catalogue,
   return labelling.log_accidental < std::log(options.max_accidental);
 }
 
-LabellingSearch find_labellings(const Scene& scene, const BodyCatalogue& catalogue,
+LabellingSearch find_labellings(const PointScene& scene, const BodyCatalogue& catalogue,
                                 const IdentificationOptions& options,
                                 std::span<const std::optional<PriorPose>> priors) {
   const std::size_t bodies = catalogue.bodies().size();
@@ -207,24 +228,29 @@ LabellingSearch find_labellings(const Scene& scene, const BodyCatalogue& catalog
   for (std::size_t body = 0; body < bodies; ++body) {
     const auto targets = catalogue.targets(body);
     const auto prior = priors.empty() ? std::optional<PriorPose>() : priors[body];
+    const std::size_t enough = std::min(targets.size(), static_cast<std::size_t>(options.min_targets));
+    if (enough < 3) continue;
     bool near = false;
-    const auto grow = [&](std::span<const CompatiblePair> agreeing, int min_size) {
+    const auto grow = [&](std::span<const CompatiblePair> agreeing, int min_size, double min_gain) {
       CliqueLimits limits = kCliqueLimits;
       limits.min_size = min_size;
       const Cliques cliques = grow_cliques(agreeing, targets.size(), scene.points.size(), limits);
       if (!cliques.complete) search.complete[body] = false;
       for (const auto& clique : cliques.found) {
-        auto labelling = labelling_of(static_cast<int>(body), clique, scene, catalogue, options, prior);
-        if (!labelling) continue;
+        auto labelling = labelling_of(static_cast<int>(body), clique, prior ? 3 : enough, scene, catalogue,
+                                      options, prior);
+        // Fewer labels could neither be reported nor be a rival worth the name: a point that completes
+        // the larger labelling by accident is rarer than what is taken for certain.
+        if (!labelling || (labelling->labels.size() < enough && !labelling->near_prior)) continue;
+        if (labelling->prior_gain < min_gain) search.complete[body] = false;
         near = near || labelling->near_prior;
         add(search, std::move(*labelling));
       }
     };
-    const int min_size = std::min(options.min_targets, static_cast<int>(targets.size()));
-    if (min_size < 3) continue;
     if (!pairs.complete) search.complete[body] = false;
-    grow(pairs.of_pattern[body], min_size);
-    if (prior && !near) grow(pairs_near(*prior, targets, scene, options), 3);
+    grow(pairs.of_pattern[body], static_cast<int>(enough), 0);
+    // Rivals far from the prior are not searched for here, so the prior alone must rule them out.
+    if (prior && !near) grow(pairs_near(*prior, targets, scene, options), 3, options.decisive_chi_square);
   }
   return search;
 }
