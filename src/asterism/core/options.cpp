@@ -28,6 +28,29 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+std::string SectionVisitor::full(std::string_view name) const { return fmt::format("{}.{}", section_, name); }
+
+void SectionVisitor::number(std::string_view name, double& value, Limits limits, std::string_view help) {
+  whole_.number(full(name), value, limits, help);
+}
+
+void SectionVisitor::integer(std::string_view name, int& value, Limits limits, std::string_view help) {
+  whole_.integer(full(name), value, limits, help);
+}
+
+void SectionVisitor::flag(std::string_view name, bool& value, std::string_view help) {
+  whole_.flag(full(name), value, help);
+}
+
+void SectionVisitor::text(std::string_view name, std::string& value, std::string_view help) {
+  whole_.text(full(name), value, help);
+}
+
+void SectionVisitor::choice(std::string_view name, int& index, const std::vector<std::string>& words,
+                            std::string_view help) {
+  whole_.choice(full(name), index, words, help);
+}
+
 std::string nearest_name(std::string_view wrong, const std::vector<std::string>& known) {
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, wrong.size() / 2) + 1;

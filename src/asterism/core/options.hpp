@@ -43,6 +43,24 @@ class OptionVisitor {
   }
 };
 
+/// Shows the options of a part of a whole under `section.`: the tracker's detection options as
+/// `detection.min_diameter_px`.
+class SectionVisitor : public OptionVisitor {
+ public:
+  SectionVisitor(std::string_view section, OptionVisitor& whole) : section_(section), whole_(whole) {}
+  void number(std::string_view name, double& value, Limits limits, std::string_view help) override;
+  void integer(std::string_view name, int& value, Limits limits, std::string_view help) override;
+  void flag(std::string_view name, bool& value, std::string_view help) override;
+  void text(std::string_view name, std::string& value, std::string_view help) override;
+  void choice(std::string_view name, int& index, const std::vector<std::string>& words,
+              std::string_view help) override;
+
+ private:
+  [[nodiscard]] std::string full(std::string_view name) const;
+  std::string section_;
+  OptionVisitor& whole_;
+};
+
 /// Of `known`, the name most like `wrong` (edit distance); empty when none is near.
 [[nodiscard]] std::string nearest_name(std::string_view wrong, const std::vector<std::string>& known);
 

@@ -18,6 +18,12 @@ TEST(ChiSquareTail, UndoesTheQuantile) {
   EXPECT_EQ(chi_square_tail(0, 3), 1.0);
 }
 
+TEST(FisherTail, GivesTheTabledValues) {
+  EXPECT_NEAR(fisher_tail(2.866081, 4, 20), 0.05, 1e-6);  // tables of F at 5 %
+  EXPECT_NEAR(fisher_tail(19.2468, 4, 2), 0.05, 1e-5);
+  EXPECT_EQ(fisher_tail(0, 4, 2), 1.0);
+}
+
 TEST(NormalQuantile, GivesTheTabledValues) {
   EXPECT_NEAR(normal_quantile(0.975), 1.959964, 1e-6);
   EXPECT_NEAR(normal_quantile(0.5), 0, 1e-12);
