@@ -44,6 +44,7 @@ enum class PoseFailure {
   Inconsistent,
   Ambiguous
 };
+constexpr std::size_t kPoseFailures = 7;
 
 struct PoseSolution {
   PoseEstimate estimate;
