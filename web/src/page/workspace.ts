@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+import { everythingAsCsv } from '../data/csv';
+import { count, times } from '../data/format';
+import type { TrackingReport } from '../data/report';
+import type { Component, Shared, Source } from '../data/selection';
+import { choice, download, h } from '../dom';
+import { figuresOf } from '../plots/figures';
+import { plotView, type PlotView } from '../plots/plot';
+import { statusStrip } from '../plots/strip';
+import { scalesOf, type Scales } from '../scene/scales';
+import { sceneView, type Layer, type SceneView, type ViewPoint } from '../scene/scene';
+import { readout } from './readout';
+import { timeline } from './timeline';
+
+const kLayers: Layer[] = ['fields', 'trajectory', 'ellipsoids', 'sight lines', 'names'];
+const kViews: ViewPoint[] = ['cell', 'bodies', 'left camera', 'above', 'side'];
+
+/// The 3-D view on the left, the linked plots on the right.
+export function workspace(report: TrackingReport, shared: Shared): { element: HTMLElement; refresh: () => void } {
+  const space = spacePanel(report, shared);
+  const plots = plotPanel(report, shared);
+  return {
+    element: h('div', { class: 'workspace', id: 'cell' }, space.element, plots.element),
+    refresh: () => {
+      space.refresh();
+      plots.refresh();
+    },
+  };
+}
+
+function spacePanel(report: TrackingReport, shared: Shared): { element: HTMLElement; refresh: () => void } {
+  const scales = scalesOf(report);
+  let scene: SceneView | null = null;
+  try {
+    scene = sceneView(report, scales, shared.now);
+  } catch {
+    // No WebGL: numbers and plots still tell everything.
+  }
+  const toggles = kLayers.map((layer) => {
+    const box = h('input', { type: 'checkbox', checked: layer !== 'sight lines' });
+    box.addEventListener('change', () => scene?.setLayer(layer, box.checked));
+    return h('label', {}, box, layer);
+  });
+  const views = kViews.map((view) => h('button', { type: 'button', onclick: () => scene?.look(view) }, view));
+  const save = h('button', { type: 'button', title: 'Save the view as an image', onclick: async () => {
+    const blob = await scene?.png();
+    if (blob) download('view.png', blob);
+  } }, 'PNG');
+  const element = h('section', { class: 'panel space', 'aria-label': 'Cell in motion' },
+    h('div', { class: 'bar-row' },
+      h('div', { class: 'choice', role: 'group', 'aria-label': 'Look from' }, h('span', { class: 'choice-label' }, 'View'), ...views),
+      h('span', { class: 'exports' }, save)),
+    scene ? scene.element : h('p', { class: 'scene none' }, 'This browser draws no WebGL, so there is no 3-D view; the plots and tables below are complete.'),
+    sceneKey(scales),
+    h('div', { class: 'layers', role: 'group', 'aria-label': 'Shown in the view' }, ...toggles),
+    timeline(report, shared),
+    readout(report, shared));
+  if (scene) {
+    const view = scene;
+    shared.watch((now) => view.show(now));
+    requestAnimationFrame(() => {
+      view.refresh();
+      view.look('cell');
+      view.show(shared.now);
+    });
+  }
+  return { element, refresh: () => scene?.refresh() };
+}
+
+/// What the marks mean and by how much they are exaggerated.
+function sceneKey(scales: Scales): HTMLElement {
+  const mark = (kind: string, text: string) => h('span', { class: `mark ${kind}` }, h('i'), text);
+  return h('p', { class: 'scene-key' },
+    mark('both', 'target seen by both cameras'), mark('one', 'by one'), mark('hidden', 'hidden'), mark('predicted', 'predicted, not measured'),
+    h('span', {}, `95 % ellipsoid of the named point × ${times(scales.ellipsoids)}`),
+    h('span', {}, scales.discs > 1 ? `targets × ${scales.discs}` : 'targets to scale'),
+    h('span', {}, `grid ${count(scales.grid.step)} mm`));
+}
+
+function plotPanel(report: TrackingReport, shared: Shared): { element: HTMLElement; refresh: () => void } {
+  const strip = statusStrip(report, shared);
+  const holder = h('div', { class: 'figures' });
+  let views: PlotView[] = [];
+  const build = () => {
+    views.forEach((view) => view.destroy());
+    views = figuresOf(report, shared.now).map((figure) => plotView(figure, shared));
+    holder.replaceChildren(...views.map((view) => view.element));
+    if (shared.now.range) views.forEach((view) => view.setRange(shared.now.range));
+  };
+  const refresh = () => {
+    strip.redraw();
+    views.forEach((view) => {
+      view.resize();
+      view.redraw();
+    });
+  };
+  shared.watch((now, before) => {
+    if (now.body !== before.body || now.component !== before.component || now.source !== before.source) build();
+    if (now.range !== before.range) views.forEach((view) => view.setRange(now.range));
+  });
+  build();
+  const element = h('section', { class: 'panel plots', 'aria-label': 'Plots over time' }, plotControls(report, shared), strip.element, holder);
+  new ResizeObserver(refresh).observe(element);
+  return { element, refresh };
+}
+
+function plotControls(report: TrackingReport, shared: Shared): HTMLElement {
+  const bodies = choice('Body', report.bodies.map((body, i) => ({ value: i, text: body.name })), shared.now.body, (body) => shared.set({ body }));
+  const components: { value: Component; text: string }[] = [{ value: 'size', text: 'size' }, { value: 'x', text: 'x' }, { value: 'y', text: 'y' }, { value: 'z', text: 'z' }];
+  const component = choice('Error', components, shared.now.component, (value) => shared.set({ component: value }));
+  const sources: { value: Source; text: string }[] = [{ value: 'measured', text: 'measured' }, { value: 'filtered', text: 'filtered' }];
+  const source = choice('Pose', sources, shared.now.source, (value) => shared.set({ source: value }));
+  const all = h('button', { type: 'button', onclick: () => shared.set({ range: null }) }, 'whole time');
+  all.hidden = true;
+  shared.watch((now) => {
+    bodies.show(now.body);
+    component.show(now.component);
+    source.show(now.source);
+    all.hidden = now.range === null;
+  });
+  const save = () => download('tracking.csv', new Blob([everythingAsCsv(report)], { type: 'text/csv' }));
+  return h('div', { class: 'bar-row controls' },
+    report.bodies.length > 1 && bodies.element, report.bodies.some((body) => body.filtered) && source.element, component.element, all,
+    h('span', { class: 'exports' }, h('button', { type: 'button', title: 'Save every frame, body and error', onclick: save }, 'all data as CSV')));
+}
