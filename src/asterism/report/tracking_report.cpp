@@ -51,7 +51,8 @@ bool is_finite(const RigidMotion& motion) {
 /// x y z, w x y z, covariance of `in_body` in the tracker (xx xy xz yy yz zz, mm²), of rotation (rad²).
 Json of_pose(const BodyPose* pose, const Vec3& in_body) {
   if (pose == nullptr || !pose->estimate) return nullptr;
-  const auto& [motion, covariance] = *pose->estimate;
+  const RigidMotion& motion = pose->estimate->tracker_from_body;
+  const Mat6& covariance = pose->estimate->covariance;
   if (!is_finite(motion) || !covariance.allFinite()) return nullptr;
   Json row = Json::array();
   append_motion(row, motion);
