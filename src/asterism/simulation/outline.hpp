@@ -8,9 +8,6 @@
 
 namespace asterism {
 
-/// A closed polygon in an image, px.
-using Outline = std::vector<Vec2>;
-
 /// A flat disc in a camera's frame, as simulation sees it.
 struct DiscPlace {
   Vec3 centre;  // mm
@@ -18,18 +15,30 @@ struct DiscPlace {
   double radius_mm;
 };
 
-/// The image of a disc's rim, point by point through the whole lens model: no conic and no linearisation,
-/// so that it can judge those. `corners` points evenly spaced in angle, pushed out so that the polygon has
-/// the circle's area; with 512 of them it departs from the curve by 3e-5 of the radius. Empty when part of
-/// the rim is behind the camera.
-[[nodiscard]] Outline outline_of_disc(const Lens& lens, const DiscPlace& disc, int corners = 512);
+/// The image of a disc's rim at even steps of the angle around it: through the whole lens model point by
+/// point, with no conic and no linearisation, so that it can judge those. The rim is smooth and closed, so
+/// sums over its points are integrals around it to all digits (the trapezoidal rule).
+struct RimPoint {
+  Vec2 px;
+  Vec2 by_step;  // ∂px / ∂angle · step: from one point to the next
+};
+using Rim = std::vector<RimPoint>;
 
-/// Area, centroid and second moments of a polygon (Green's theorem), told as the ellipse that has the
-/// same: for the image of a disc, its ellipse.
-struct OutlineMoments {
+/// Empty when part of the rim is behind the camera.
+[[nodiscard]] Rim rim_of_disc(const Lens& lens, const DiscPlace& disc, int points = 96);
+
+/// Area, centroid and second moments by Green's theorem, told as the ellipse that has the same: for the
+/// image of a disc, its ellipse.
+struct RimMoments {
   double area_px2;
   Ellipse ellipse;
 };
-[[nodiscard]] OutlineMoments moments_of(const Outline& outline);
+[[nodiscard]] RimMoments moments_of(const Rim& rim);
+
+/// A closed polygon in an image, px.
+using Outline = std::vector<Vec2>;
+
+/// The polygon through the rim's points, pushed out so that it has the rim's area.
+[[nodiscard]] Outline polygon_of(const Rim& rim);
 
 }  // namespace asterism

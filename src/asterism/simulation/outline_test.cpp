@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <numbers>
+#include <cmath>
 
 #include "asterism/camera/disc_image.hpp"
 #include "asterism/core/random.hpp"
@@ -29,44 +28,48 @@ DiscPlace random_disc(std::uint64_t index) {
   return disc;
 }
 
-TEST(OutlineOfDisc, HasTheExactConicOfAPinhole) {
+TEST(RimOfDisc, HasTheExactConicOfAPinhole) {
   const Lens lens = lens_with(0);
   for (std::uint64_t i = 0; i < 200; ++i) {
     const DiscPlace disc = random_disc(i);
     const auto conic = image_of_disc(lens, {disc.centre, disc.normal, disc.radius_mm});
     ASSERT_TRUE(conic);
-    const Ellipse ellipse = moments_of(outline_of_disc(lens, disc)).ellipse;
-    EXPECT_LT((ellipse.centre - conic->centre).norm(), 1e-6);
-    EXPECT_NEAR(ellipse.semi_major, conic->semi_major, 1e-5 * conic->semi_major);
-    EXPECT_NEAR(ellipse.semi_minor, conic->semi_minor, 1e-5 * conic->semi_major);
+    const Ellipse ellipse = moments_of(rim_of_disc(lens, disc)).ellipse;
+    EXPECT_LT((ellipse.centre - conic->centre).norm(), 1e-9);
+    EXPECT_NEAR(ellipse.semi_major, conic->semi_major, 1e-9 * conic->semi_major);
+    EXPECT_NEAR(ellipse.semi_minor, conic->semi_minor, 1e-9 * conic->semi_major);
   }
 }
 
-TEST(OutlineOfDisc, AgreesWithTheLinearisedConicThroughDistortionToAThousandthOfAPixel) {
+TEST(RimOfDisc, AgreesWithTheLinearisedConicThroughDistortionToAThousandthOfAPixel) {
   const Lens lens = lens_with(5);
   for (std::uint64_t i = 0; i < 200; ++i) {
     const DiscPlace disc = random_disc(i);
     const auto conic = image_of_disc(lens, {disc.centre, disc.normal, disc.radius_mm});
     ASSERT_TRUE(conic);
-    EXPECT_LT((moments_of(outline_of_disc(lens, disc)).ellipse.centre - conic->centre).norm(), 1e-3);
+    EXPECT_LT((moments_of(rim_of_disc(lens, disc)).ellipse.centre - conic->centre).norm(), 1e-3);
   }
 }
 
-TEST(MomentsOf, KnowsARectanglesMomentsInEitherSense) {
-  // Sides 6 × 2 about (1001, 502): variances 3 and 1/3, so the ellipse has semi-axes 2√3 and 2/√3.
-  Outline outline = {{998, 501}, {1004, 501}, {1004, 503}, {998, 503}};
-  for (int sense = 0; sense < 2; ++sense) {
-    const OutlineMoments moments = moments_of(outline);
-    EXPECT_NEAR(moments.area_px2, 12, 1e-9);
-    EXPECT_LT((moments.ellipse.centre - Vec2(1001, 502)).norm(), 1e-9);
-    EXPECT_NEAR(moments.ellipse.semi_major, 2 * std::numbers::sqrt3, 1e-9);
-    EXPECT_NEAR(moments.ellipse.semi_minor, 2 / std::numbers::sqrt3, 1e-9);
-    std::reverse(outline.begin(), outline.end());
+TEST(PolygonOf, KeepsAreaAndCentroid) {
+  const Rim rim = rim_of_disc(lens_with(5), random_disc(3), 200);
+  const RimMoments moments = moments_of(rim);
+  const Outline outline = polygon_of(rim);
+  double area = 0;
+  Vec2 first = Vec2::Zero();
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 a = outline[i] - moments.ellipse.centre;
+    const Vec2 b = outline[(i + 1) % outline.size()] - moments.ellipse.centre;
+    const double cone = 0.5 * (a.x() * b.y() - a.y() * b.x());
+    area += cone;
+    first += cone / 3 * (a + b);
   }
+  EXPECT_NEAR(std::abs(area) / moments.area_px2, 1, 1e-6);
+  EXPECT_LT((first / area).norm(), 1e-5);
 }
 
-TEST(OutlineOfDisc, IsEmptyWhenTheRimReachesBehindTheCamera) {
-  EXPECT_TRUE(outline_of_disc(lens_with(0), {{0, 0, 3}, Vec3::UnitX(), 5}).empty());
+TEST(RimOfDisc, IsEmptyWhenTheRimReachesBehindTheCamera) {
+  EXPECT_TRUE(rim_of_disc(lens_with(0), {{0, 0, 3}, Vec3::UnitX(), 5}).empty());
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "asterism/simulation/centres.hpp"
+#include "asterism/simulation/render.hpp"
+#include "asterism/simulation/sensor.hpp"
 #include "asterism/simulation/streams.hpp"
 #include "asterism/simulation/truth.hpp"
 
@@ -33,20 +35,36 @@ Simulator::Simulator(Cell cell, const SimulationOptions& options)
                       target.id, mover.body.name));
     }
   }
+  left_gain_ = fixed_pattern(cell_.sensor, cell_.rig.left, Side::Left, options_.seed);
+  right_gain_ = fixed_pattern(cell_.sensor, cell_.rig.right, Side::Right, options_.seed);
+}
+
+bool Simulator::loses(int number, Side side) const {
+  return stream_of(options_.seed, number, side, Purpose::LostFrames).uniform() < cell_.sensor.lost_frames;
+}
+
+Image Simulator::picture(int number, Side side) const {
+  const double time_s = number / cell_.timing.rate_hz;
+  const Raster<float> light = render_light(cell_, side, time_s, options_.seed, number);
+  return expose(light, side == Side::Left ? left_gain_ : right_gain_, cell_.sensor, side, options_.seed,
+                number);
 }
 
 SimulatedFrame Simulator::frame(int number) const {
-  const double time_s = number / cell_.timing.rate_hz;
   SimulatedFrame made;
-  made.truth = truth_of(cell_, time_s);
+  made.frame = number;
+  made.time_s = number / cell_.timing.rate_hz;
+  made.truth = truth_of(cell_, made.time_s);
   made.image.frame = made.centres.frame = number;
-  made.image.time_s = made.centres.time_s = time_s;
+  made.image.time_s = made.centres.time_s = made.time_s;
   for (const Side side : {Side::Left, Side::Right}) {
-    const bool lost =
-        stream_of(options_.seed, number, side, Purpose::LostFrames).uniform() < cell_.sensor.lost_frames;
-    if (lost) continue;
-    auto& centres = side == Side::Left ? made.centres.left : made.centres.right;
-    centres = simulate_centres(cell_, made.truth, side, number, options_);
+    if (loses(number, side)) continue;
+    if (options_.level == SimulationLevel::Images) {
+      (side == Side::Left ? made.image.left : made.image.right) = picture(number, side);
+    } else {
+      (side == Side::Left ? made.centres.left : made.centres.right) =
+          simulate_centres(cell_, made.truth, side, number, options_);
+    }
   }
   return made;
 }

@@ -43,6 +43,8 @@ struct FrameTruth {
 
 /// One frame with its truth; `image` or `centres` is filled, by the level.
 struct SimulatedFrame {
+  int frame = 0;
+  double time_s = 0;
   FrameTruth truth;
   StereoImage image;
   StereoCentres centres;
@@ -58,8 +60,12 @@ class Simulator {
   [[nodiscard]] const Cell& cell() const { return cell_; }
 
  private:
+  [[nodiscard]] bool loses(int number, Side side) const;
+  [[nodiscard]] Image picture(int number, Side side) const;
+
   Cell cell_;
   SimulationOptions options_;
+  Raster<float> left_gain_, right_gain_;  // fixed patterns; empty at the level of centres
 };
 
 }  // namespace asterism

@@ -6,8 +6,9 @@
 namespace asterism {
 namespace {
 
-bool inside(const Lens& lens, const Outline& outline) {
-  for (const Vec2& px : outline) {
+bool inside(const Lens& lens, const Rim& rim) {
+  for (const RimPoint& point : rim) {
+    const Vec2& px = point.px;
     if (px.x() < -0.5 || px.y() < -0.5 || px.x() > lens.width_px - 0.5 || px.y() > lens.height_px - 0.5)
       return false;
   }
@@ -34,17 +35,17 @@ void add_targets(const Cell& cell, Side side, double time_s, FrameTruth& truth) 
   for (std::size_t i = 0; i < scene.discs.size(); ++i) {
     const SceneDisc& disc = scene.discs[i];
     const auto centre = project(lens, disc.place.centre);
-    const Outline outline = outline_of_disc(lens, disc.place);
-    if (!centre || outline.empty()) continue;
+    const Rim rim = rim_of_disc(lens, disc.place);
+    if (!centre || rim.empty()) continue;
     TargetTruth target;
     target.body = disc.body;
     target.target = disc.target;
     target.side = side;
     target.centre_px = centre->px;
-    target.image = disc.place.radius_mm > 0 ? moments_of(outline).ellipse : Ellipse{centre->px, 0, 0, 0};
+    target.image = disc.place.radius_mm > 0 ? moments_of(rim).ellipse : Ellipse{centre->px, 0, 0, 0};
     target.incidence_rad = disc.incidence_rad;
     target.brightness = disc.brightness;
-    target.in_image = inside(lens, outline);
+    target.in_image = inside(lens, rim);
     target.visible = visible_share(scene, i, lens);
     target.blur_px = way_px(cell, target, time_s);
     target.in_camera = disc.place.centre;
