@@ -79,7 +79,7 @@ int run() {
          find_contours(contours);
          contours_found = contours.size();
        },
-       [&] { found = find_candidates(raster, Tone<std::uint8_t>{}, options).size(); },
+       [&] { found = find_candidates(raster, Tone<std::uint8_t>{}, options).candidates.size(); },
        [&] {
          std::vector<std::vector<cv::Point>> contours;
          find_contours(contours);

@@ -14,15 +14,29 @@ namespace {
 constexpr std::array<double, 7> kShares = {0.5, 0.25, 0.75, 0.12, 0.375, 0.625, 0.875};
 constexpr int kDirections = 24;
 
+/// Cosine and sine of the directions in which an outline is looked at.
+const std::array<Vec2, kDirections>& directions() {
+  static const auto kAll = [] {
+    std::array<Vec2, kDirections> all;
+    for (std::size_t k = 0; k < kDirections; ++k) {
+      const double angle = 2 * std::numbers::pi * static_cast<double>(k) / kDirections;
+      all[k] = {std::cos(angle), std::sin(angle)};
+    }
+    return all;
+  }();
+  return kAll;
+}
+
 template <class Grey>
 class Search {
  public:
   Search(const Raster<Grey>& image, Tone<Grey> tone, const DetectionOptions& options)
       : image_(image), tone_(tone), options_(options) {}
 
-  std::vector<Candidate> run() {
+  FoundCandidates run() {
     if (image_.width < 3 || image_.height < 3) return {};
     const ThresholdMap map = threshold_map(image_, tone_);
+    found_.step = map.step;
     look(map);
     const int reach =
         std::max(1, static_cast<int>(std::ceil(options_.max_diameter_px / (2.5 * ThresholdMap::kTile))));
@@ -38,10 +52,13 @@ class Search {
  private:
   void look(const ThresholdMap& map) {
     runs_.clear();
-    std::vector<float> blocks;
+    std::vector<Grey> thresholds;
     for (int y = 0; y < image_.height; ++y) {
-      thresholds_of_row(map, y, options_.min_contrast_levels, options_.min_contrast_noise, blocks);
-      append_runs_of_row(image_.row(y), y, 0, image_.width, blocks.data(), tone_, runs_);
+      // Eight rows share their thresholds: the map is a smooth one.
+      if (y % 8 == 0) {
+        thresholds_of_row(map, y + 4, options_.min_contrast_levels, options_.min_contrast_noise, thresholds);
+      }
+      append_runs_of_row(image_, y, 0, image_.width, thresholds.data(), Grey{0}, tone_, runs_);
     }
     for (const Blob& blob : blobs_of(runs_)) look_inside(blob, map);
   }
@@ -53,13 +70,12 @@ class Search {
                           std::min(image_.width, blob.box.x_end + 1),
                           std::min(image_.height, blob.box.y_end + 1)};
     const double peak = peak_of(box);
-    levels_.assign(static_cast<std::size_t>(image_.width / 32 + 1), 0.0F);
+    found_.brightest = std::max(found_.brightest, peak);
     for (const double share : kShares) {
-      std::fill(levels_.begin() + box.x_begin / 32, levels_.begin() + (box.x_end - 1) / 32 + 1,
-                static_cast<float>(background + share * (peak - background)));
+      const auto level = static_cast<Grey>(background + share * (peak - background));
       inner_runs_.clear();
       for (int y = box.y_begin; y < box.y_end; ++y) {
-        append_runs_of_row(image_.row(y), y, box.x_begin, box.x_end, levels_.data(), tone_, inner_runs_);
+        append_runs_of_row<Grey>(image_, y, box.x_begin, box.x_end, nullptr, level, tone_, inner_runs_);
       }
       bool all = true;
       for (const Blob& inner : blobs_of(inner_runs_))
@@ -74,9 +90,11 @@ class Search {
 
   [[nodiscard]] double peak_of(const PixelBox& box) const {
     Grey peak = 0;
-    for (int y = box.y_begin; y < box.y_end; ++y) {
+    // Of a large box every second pixel will do.
+    const int every = std::min(box.x_end - box.x_begin, box.y_end - box.y_begin) > 10 ? 2 : 1;
+    for (int y = box.y_begin; y < box.y_end; y += every) {
       const Grey* row = image_.row(y);
-      for (int x = box.x_begin; x < box.x_end; ++x) peak = std::max(peak, tone_(row[x]));
+      for (int x = box.x_begin; x < box.x_end; x += every) peak = std::max(peak, tone_(row[x]));
     }
     return peak;
   }
@@ -110,9 +128,8 @@ class Search {
     const double in = std::min(out, 0.8 * e.semi_minor);
     std::array<double, kDirections> fall{};
     std::size_t seen = 0;
-    for (int k = 0; k < kDirections; ++k) {
-      const double angle = 2 * std::numbers::pi * k / kDirections;
-      const double c = std::cos(angle), s = std::sin(angle);
+    for (const Vec2& direction : directions()) {
+      const double c = direction.x(), s = direction.y();
       const Vec2 edge = e.centre + e.semi_major * c * major + e.semi_minor * s * minor;
       const Vec2 normal = (c / e.semi_major * major + s / e.semi_minor * minor).normalized();
       double inside = 0, outside = 0;
@@ -130,7 +147,7 @@ class Search {
   }
 
   bool grey_at(const Vec2& px, double& grey) const {
-    const int x = static_cast<int>(std::lround(px.x())), y = static_cast<int>(std::lround(px.y()));
+    const int x = static_cast<int>(std::floor(px.x() + 0.5)), y = static_cast<int>(std::floor(px.y() + 0.5));
     if (!image_.contains(x, y)) return false;
     grey = tone_(image_.at(x, y));
     return true;
@@ -138,34 +155,31 @@ class Search {
 
   /// Of candidates that lie in one another the one with the stronger edge stays.
   void keep(const Candidate& candidate) {
-    for (Candidate& other : found_) {
+    for (Candidate& other : found_.candidates) {
       const double distance = (other.ellipse.centre - candidate.ellipse.centre).norm();
       if (distance > std::max(other.ellipse.semi_minor, candidate.ellipse.semi_minor)) continue;
       if (candidate.contrast * candidate.edge_support > 1.1 * other.contrast * other.edge_support)
         other = candidate;
       return;
     }
-    found_.push_back(candidate);
+    found_.candidates.push_back(candidate);
   }
 
   const Raster<Grey>& image_;
   Tone<Grey> tone_;
   const DetectionOptions& options_;
   std::vector<Run> runs_, inner_runs_;
-  std::vector<float> levels_;
-  std::vector<Candidate> found_;
+  FoundCandidates found_;
 };
 
 }  // namespace
 
 template <class Grey>
-std::vector<Candidate> find_candidates(const Raster<Grey>& image, Tone<Grey> tone,
-                                       const DetectionOptions& options) {
+FoundCandidates find_candidates(const Raster<Grey>& image, Tone<Grey> tone, const DetectionOptions& options) {
   return Search<Grey>(image, tone, options).run();
 }
 
-template std::vector<Candidate> find_candidates(const Raster8&, Tone<std::uint8_t>, const DetectionOptions&);
-template std::vector<Candidate> find_candidates(const Raster16&, Tone<std::uint16_t>,
-                                                const DetectionOptions&);
+template FoundCandidates find_candidates(const Raster8&, Tone<std::uint8_t>, const DetectionOptions&);
+template FoundCandidates find_candidates(const Raster16&, Tone<std::uint16_t>, const DetectionOptions&);
 
 }  // namespace asterism

@@ -16,10 +16,16 @@ struct Candidate {
   double edge_support = 0;  // share of the outline where the level falls by a good part of that
 };
 
+struct FoundCandidates {
+  std::vector<Candidate> candidates;
+  double step = 1;       // the smallest grey step in use
+  double brightest = 0;  // grey level, of all that stands out
+};
+
 /// Looks for discs with the threshold map, then inside each component at levels between background and peak:
 /// so two discs joined by their blur, a disc on a bright plate, a disc beside a lamp are found as well.
 template <class Grey>
-[[nodiscard]] std::vector<Candidate> find_candidates(const Raster<Grey>& image, Tone<Grey> tone,
-                                                     const DetectionOptions& options);
+[[nodiscard]] FoundCandidates find_candidates(const Raster<Grey>& image, Tone<Grey> tone,
+                                              const DetectionOptions& options);
 
 }  // namespace asterism

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <numeric>
+#include <span>
 
 #include "asterism/detection/candidates.hpp"
 #include "asterism/detection/edge_fit.hpp"
@@ -18,8 +19,10 @@ constexpr BlurPrior kAnyBlur = {0.75, 0.5};
 
 /// One target between its first fit, with uniform weights, and its final one.
 struct FirstFit {
+  Patch patch;
+  PatchContent content;
   Ellipse ellipse;
-  double amplitude = 0, background = 0, blur = 0;
+  EdgeModel model;
   Scatter scatter;
 };
 
@@ -43,7 +46,8 @@ class Fitting {
 
   [[nodiscard]] Result<FirstFit, FitFailure> first(const Ellipse& start) const {
     Patch patch = cut_patch(image_, tone_, scale_, start, kMargin);
-    const PatchContent content = mask_neighbours(patch, start);
+    PatchContent content = look_at(patch, start);
+    mask_neighbours(patch, content);
     if (2 * content.disc_pixels < std::numbers::pi * start.semi_major * start.semi_minor) {
       return because(FitFailure::OutsideImage);
     }
@@ -54,22 +58,22 @@ class Fitting {
     model.amplitude = content.inside - content.outside;
     model.background = content.outside;
     model.blur = options_.blur_px > 0 ? options_.blur_px : kAnyBlur.mean;
-    const auto fit = fit_edge(patch, model, unit_noise(content), prior_for(start, options_, model.blur), 20);
+    const BlurPrior prior = prior_for(start, options_, model.blur);
+    const auto fit = fit_edge(patch, model, unit_noise(content), prior, {20, 0.05});
     if (!fit) return because(fit.error());
-    return FirstFit{ellipse_of(patch, fit->model), fit->model.amplitude, fit->model.background,
-                    fit->model.blur, scatter_of(patch, fit->model)};
+    const Scatter scatter = scatter_of(patch, content.distance, fit->model);
+    const Ellipse ellipse = ellipse_of(patch, fit->model);
+    return FirstFit{std::move(patch), std::move(content), ellipse, fit->model, scatter};
   }
 
   [[nodiscard]] Result<Centre, FitFailure> final(const FirstFit& before, const NoiseModel& noise,
                                                  double image_blur) const {
-    Patch patch = cut_patch(image_, tone_, scale_, before.ellipse, kMargin);
-    const PatchContent content = mask_neighbours(patch, before.ellipse);
-    EdgeModel model = model_of(patch, before.ellipse);
-    model.amplitude = before.amplitude;
-    model.background = before.background;
+    const Patch& patch = before.patch;
+    const PatchContent& content = before.content;
+    EdgeModel model = before.model;
     const BlurPrior prior = prior_for(before.ellipse, options_, image_blur);
-    model.blur = prior.deviation > 0 ? before.blur : prior.mean;
-    const auto fit = fit_edge(patch, model, edge_noise(noise, before.scatter, model), prior, 10);
+    if (prior.deviation == 0) model.blur = prior.mean;
+    const auto fit = fit_edge(patch, model, edge_noise(noise, before.scatter, model), prior);
     if (!fit) return because(fit.error());
     Centre centre;
     centre.ellipse = ellipse_of(patch, fit->model);
@@ -91,7 +95,7 @@ class Fitting {
   /// One hundredth of the contrast: puts the prior on the blur in proportion before the noise is known.
   static EdgeNoise unit_noise(const PatchContent& content) {
     const double contrast = content.inside - content.outside;
-    return {1e-4 * contrast * contrast, 0, 0};
+    return {1e-4 * contrast * contrast, 0};
   }
 
   const Raster<Grey>& image_;
@@ -101,11 +105,11 @@ class Fitting {
 };
 
 /// The median blur of targets large enough to tell it.
-double blur_of_image(const std::vector<FirstFit>& fits, const DetectionOptions& options) {
+double blur_of_image(std::span<const FirstFit> fits, const DetectionOptions& options) {
   std::vector<double> blurs;
   for (const FirstFit& fit : fits) {
     if (std::sqrt(fit.ellipse.semi_major * fit.ellipse.semi_minor) >= options.blur_held_below_px)
-      blurs.push_back(fit.blur);
+      blurs.push_back(fit.model.blur);
   }
   if (options.blur_px > 0) return options.blur_px;
   if (blurs.empty()) return kAnyBlur.mean;
@@ -115,17 +119,16 @@ double blur_of_image(const std::vector<FirstFit>& fits, const DetectionOptions& 
 }
 
 template <class Grey>
-std::vector<Centre> fit_all(const Raster<Grey>& image, Tone<Grey> tone,
-                            const std::vector<Candidate>& candidates, const GreyScale& scale,
+std::vector<Centre> fit_all(const Raster<Grey>& image, Tone<Grey> tone, const FoundCandidates& found,
                             const DetectionOptions& options) {
-  const Fitting<Grey> fitting(image, tone, scale, options);
+  const Fitting<Grey> fitting(image, tone, grey_scale<Grey>(tone, found.step, found.brightest), options);
   std::vector<FirstFit> firsts;
   std::vector<Scatter> scatters;
-  for (const Candidate& candidate : candidates) {
-    const auto fit = fitting.first(candidate.ellipse);
+  for (const Candidate& candidate : found.candidates) {
+    auto fit = fitting.first(candidate.ellipse);
     if (!fit) continue;
-    firsts.push_back(*fit);
     scatters.push_back(fit->scatter);
+    firsts.push_back(std::move(*fit));
   }
   const NoiseModel noise = noise_model(scatters, fitting.step());
   const double blur = blur_of_image(firsts, options);
@@ -139,16 +142,6 @@ std::vector<Centre> fit_all(const Raster<Grey>& image, Tone<Grey> tone,
   return centres;
 }
 
-template <class Grey>
-GreyScale scale_of(const Raster<Grey>& image, double step, Tone<Grey> tone) {
-  double brightest = 0;
-  if (sizeof(Grey) > 1 && tone.flip == 0) {
-    brightest = image.pixels.empty() ? 0 : *std::max_element(image.pixels.begin(), image.pixels.end());
-  }
-  if (tone.flip != 0) return {static_cast<double>(tone.flip), step};
-  return grey_scale<Grey>(step, brightest);
-}
-
 }  // namespace
 
 std::vector<Centre> detect_targets(const Image& image, const DetectionOptions& options) {
@@ -156,9 +149,8 @@ std::vector<Centre> detect_targets(const Image& image, const DetectionOptions& o
       [&]<class Grey>(const Raster<Grey>& raster) -> std::vector<Centre> {
         if (raster.width < 3 || raster.height < 3) return {};
         const auto tone = tone_of<Grey>(options);
-        const auto candidates = find_candidates(raster, tone, options);
-        const double step = threshold_map(raster, tone).step;
-        return fit_all(raster, tone, candidates, scale_of(raster, step, tone), options);
+        const auto found = find_candidates(raster, tone, options);
+        return fit_all(raster, tone, found, options);
       },
       image);
 }
@@ -169,8 +161,7 @@ std::vector<Centre> detect_targets(const Image& image, std::span<const SearchWin
       [&]<class Grey>(const Raster<Grey>& raster) -> std::vector<Centre> {
         if (raster.width < 3 || raster.height < 3) return {};
         const auto tone = tone_of<Grey>(options);
-        const double step = threshold_map(raster, tone).step;
-        std::vector<Candidate> candidates;
+        FoundCandidates all{{}, 0, 0};
         for (const SearchWindow& window : windows) {
           const auto from = [](double at, int most) {
             return std::clamp(static_cast<int>(std::floor(at)), 0, most);
@@ -184,15 +175,20 @@ std::vector<Centre> detect_targets(const Image& image, std::span<const SearchWin
           for (int row = 0; row < part.height; ++row) {
             std::copy_n(raster.row(y + row) + x, part.width, part.row(row));
           }
-          for (Candidate candidate : find_candidates(part, tone, options)) {
+          const auto found = find_candidates(part, tone, options);
+          all.step = std::gcd(static_cast<int>(all.step), static_cast<int>(found.step));
+          all.brightest = std::max(all.brightest, found.brightest);
+          for (Candidate candidate : found.candidates) {
             candidate.ellipse.centre += Vec2(x, y);
             const auto same = [&](const Candidate& other) {
               return (other.ellipse.centre - candidate.ellipse.centre).norm() < other.ellipse.semi_minor;
             };
-            if (std::none_of(candidates.begin(), candidates.end(), same)) candidates.push_back(candidate);
+            if (std::none_of(all.candidates.begin(), all.candidates.end(), same))
+              all.candidates.push_back(candidate);
           }
         }
-        return fit_all(raster, tone, candidates, scale_of(raster, step, tone), options);
+        all.step = std::max(1.0, all.step);
+        return fit_all(raster, tone, all, options);
       },
       image);
 }
@@ -203,12 +199,11 @@ Result<Centre, FitFailure> fit_target(const Image& image, const Ellipse& start,
       [&]<class Grey>(const Raster<Grey>& raster) -> Result<Centre, FitFailure> {
         if (raster.width < 3 || raster.height < 3) return because(FitFailure::OutsideImage);
         const auto tone = tone_of<Grey>(options);
-        const double step = threshold_map(raster, tone).step;
-        const Fitting<Grey> fitting(raster, tone, scale_of(raster, step, tone), options);
+        const Fitting<Grey> fitting(raster, tone, grey_scale(raster, tone, start, kMargin), options);
         const auto first = fitting.first(start);
         if (!first) return because(first.error());
         return fitting.final(*first, noise_model({first->scatter}, fitting.step()),
-                             blur_of_image({*first}, options));
+                             blur_of_image({&*first, 1}, options));
       },
       image);
 }

@@ -141,15 +141,14 @@ EdgeModel model_of(const Patch& patch, const Ellipse& ellipse) {
 }
 
 Result<EdgeFit, FitFailure> fit_edge(const Patch& patch, const EdgeModel& start, const EdgeNoise& noise,
-                                     const BlurPrior& blur, int max_iterations) {
-  constexpr double kEnough = 1e-3;  // px; the step after this one is smaller by another factor of 20 and more
+                                     const BlurPrior& blur, const FitLimits& limits) {
   EdgeFit fit;
   fit.model = start;
   NormalEquations equations = normal_equations(patch, fit.model, noise);
   System system(equations, fit.model, blur);
   double damping = 0;
   bool converged = false;
-  while (fit.iterations < max_iterations && !converged) {
+  while (fit.iterations < limits.iterations && !converged) {
     ++fit.iterations;
     Vector by;
     if (!system.step(damping, by)) {
@@ -162,10 +161,15 @@ Result<EdgeFit, FitFailure> fit_edge(const Patch& patch, const EdgeModel& start,
       damping = std::max(1e-2, damping * 10);
       continue;
     }
+    if (damping < 1e-3 && move_of(fit.model, by) < limits.enough_px) {
+      // The equations here differ from those at the last step by less than their own meaning.
+      fit.model = next;
+      converged = true;
+      break;
+    }
     const NormalEquations there = normal_equations(patch, next, noise);
     const System at(there, next, blur);
-    converged = move_of(fit.model, by) < kEnough;
-    if (at.chi_square > system.chi_square * (1 + 1e-5) && !converged) {
+    if (!(at.chi_square <= system.chi_square * (1 + 1e-4))) {
       damping = std::max(1e-2, damping * 10);
       continue;
     }

@@ -14,6 +14,12 @@ struct BlurPrior {
   double deviation = 0.5;  // px; 0 = held
 };
 
+struct FitLimits {
+  int iterations = 20;
+  double enough_px =
+      2e-3;  // a move of the outline after which no other is made: the next is 20 times smaller
+};
+
 struct EdgeFit {
   EdgeModel model;
   Mat2 covariance = Mat2::Zero();  // px², of the centre, for the noise given
@@ -25,7 +31,7 @@ struct EdgeFit {
 /// Maximum-likelihood fit (Levenberg–Marquardt) of the model to the usable pixels, whose variance is `noise`.
 [[nodiscard]] Result<EdgeFit, FitFailure> fit_edge(const Patch& patch, const EdgeModel& start,
                                                    const EdgeNoise& noise, const BlurPrior& blur,
-                                                   int max_iterations);
+                                                   const FitLimits& limits = {});
 
 /// The ellipse in image coordinates, and a model of an ellipse.
 [[nodiscard]] Ellipse ellipse_of(const Patch& patch, const EdgeModel& model);

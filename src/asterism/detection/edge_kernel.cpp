@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "asterism/detection/edge_kernel.hpp"
 
-#include <bit>
+#include <cstdint>
 #include <cstring>
 
-#include "asterism/detection/clones.hpp"
+#include "asterism/detection/lanes.hpp"
 
 namespace asterism {
 namespace {
 
-using Lanes = float __attribute__((vector_size(32)));
-using Ints = int __attribute__((vector_size(32)));
+using Lanes = FloatLanes;
+using Ints = IntLanes;
 
 ASTERISM_INLINE Lanes load(const float* from) {
   Lanes lanes;
@@ -113,65 +113,134 @@ ASTERISM_INLINE float sum_of(Lanes v) {
   return ((v[0] + v[4]) + (v[1] + v[5])) + ((v[2] + v[6]) + (v[3] + v[7]));
 }
 
+/// Derivatives, weights and residuals of eight pixels.
+struct Rows {
+  Lanes j[EdgeModel::kParameters];
+  Lanes weight, residual;
+};
+constexpr int kChunk = 32;
+
+/// The sums that grow from pixel to pixel.
+struct Totals {
+  Lanes matrix[NormalEquations::kUpper] = {};
+  Lanes right[EdgeModel::kParameters] = {};
+  Lanes chi_square = {}, count = {};
+};
+
+/// Adds a chunk row of the matrix by row, so that its accumulators stay in registers.
+template <int kRow>
+ASTERISM_INLINE void add_row(const Rows* rows, int count, Totals& totals) {
+  constexpr int kN = EdgeModel::kParameters;
+  constexpr int kFirst = kRow * kN - kRow * (kRow - 1) / 2;
+  Lanes sums[kN - kRow + 1];
+#pragma GCC unroll 8
+  for (int b = 0; b < kN - kRow; ++b) sums[b] = totals.matrix[kFirst + b];
+  sums[kN - kRow] = totals.right[kRow];
+  for (int i = 0; i < count; ++i) {
+    const Lanes weighted = rows[i].weight * rows[i].j[kRow];
+#pragma GCC unroll 8
+    for (int b = 0; b < kN - kRow; ++b) sums[b] += weighted * rows[i].j[kRow + b];
+    sums[kN - kRow] += weighted * rows[i].residual;
+  }
+#pragma GCC unroll 8
+  for (int b = 0; b < kN - kRow; ++b) totals.matrix[kFirst + b] = sums[b];
+  totals.right[kRow] = sums[kN - kRow];
+}
+
+ASTERISM_INLINE void add_chunk(const Rows* rows, int count, Totals& totals) {
+  add_row<0>(rows, count, totals);
+  add_row<1>(rows, count, totals);
+  add_row<2>(rows, count, totals);
+  add_row<3>(rows, count, totals);
+  add_row<4>(rows, count, totals);
+  add_row<5>(rows, count, totals);
+  add_row<6>(rows, count, totals);
+  add_row<7>(rows, count, totals);
+}
+
+/// Whether no pixel of the eight is near enough to the edge to feel it move.
+ASTERISM_INLINE bool all_far(Lanes t) {
+  const WordLanes far = reinterpret_cast<WordLanes>(t * t > 20.0F);
+  return (far[0] & far[1] & far[2] & far[3]) == ~std::uint64_t{0};
+}
+
 ASTERISM_CLONES void accumulate(const Patch& patch, const EdgeModel& model, const EdgeNoise& noise,
                                 NormalEquations& result) {
   constexpr int kN = EdgeModel::kParameters;
+  constexpr int kAa = 30, kAb = 31, kBb = 33;  // places of amplitude and background in the upper triangle
   const Constants c(model);
   const auto background = static_cast<float>(model.background);
   const auto amplitude = static_cast<float>(model.amplitude);
-  const auto v0 = static_cast<float>(noise.outside), v1 = static_cast<float>(noise.linear),
-             v2 = static_cast<float>(noise.square);
-  Lanes matrix[NormalEquations::kUpper] = {};
-  Lanes right[kN] = {};
-  Lanes chi_square = {}, count = {};
+  const auto v0 = static_cast<float>(noise.outside), v1 = static_cast<float>(noise.linear);
+  Totals totals;
+  Rows rows[kChunk];
+  int filled = 0;
   for (int row = 0; row < patch.rows; ++row) {
     const Lanes dy = Lanes{} + (static_cast<float>(row) - c.y);
-    for (int column = 0; column < patch.stride; column += 8) {
+    const auto [begin, end] = patch.spans[static_cast<std::size_t>(row)];
+    for (int column = begin; column < end; column += 8) {
       const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(row) * patch.stride + column;
       const Place p = place(c, kCount + (static_cast<float>(column) - c.x), dy);
       const Lanes t = p.distance * c.inverse_blur + 0.5F * c.blur * p.curvature;
-      const Normal n = normal(t);
-      const Lanes uneven = load(&patch.unevenness[0] + at);
-      const Lanes usable = load(&patch.usable[0] + at);
+      const Lanes usable = load(patch.usable.data() + at);
+      const Lanes uneven = patch.unevenness.empty() ? Lanes{} : load(patch.unevenness.data() + at);
       const Lanes height = amplitude - uneven;
-      const Lanes residual = load(&patch.grey[0] + at) - background - uneven - height * n.tail;
-      const Lanes weight = usable / (v0 + n.tail * (v1 + n.tail * v2));
+      const Lanes over = load(patch.grey.data() + at) - background - uneven;
+      totals.count += usable;
+      if (all_far(t)) {
+        const Lanes share = t < 0.0F ? Lanes{} + 1.0F : Lanes{};
+        const Lanes weight = usable / (v0 + share * v1);
+        const Lanes residual = over - height * share;
+        const Lanes weighted = weight * share;
+        totals.matrix[kAa] += weighted;
+        totals.matrix[kAb] += weighted;
+        totals.matrix[kBb] += weight;
+        totals.right[5] += weighted * residual;
+        totals.right[6] += weight * residual;
+        totals.chi_square += weight * residual * residual;
+        continue;
+      }
+      const Normal n = normal(t);
+      Rows& r = rows[filled];
+      r.residual = over - height * n.tail;
+      r.weight = usable / (v0 + n.tail * v1);
       // How the grey level changes as the edge moves outwards, per px.
       const Lanes steep = height * n.density * c.inverse_blur;
       const Lanes along = steep * p.inverse_slope;
-      const Lanes by_shape = -steep * p.inverse_slope * p.inverse_radius;
-      const Lanes j[kN] = {
-          along * p.qx,           along * p.qy,
-          by_shape * p.mx * p.dx, by_shape * (p.mx * p.dy + p.my * p.dx),
-          by_shape * p.my * p.dy, n.tail,
-          Lanes{} + 1.0F,         steep * (p.distance * c.inverse_blur - 0.5F * c.blur * p.curvature)};
-      int k = 0;
-      for (int a = 0; a < kN; ++a) {
-        const Lanes weighted = weight * j[a];
-        right[a] += weighted * residual;
-        for (int b = a; b < kN; ++b) matrix[k++] += weighted * j[b];
+      const Lanes by_shape = -along * p.inverse_radius;
+      r.j[0] = along * p.qx;
+      r.j[1] = along * p.qy;
+      r.j[2] = by_shape * p.mx * p.dx;
+      r.j[3] = by_shape * (p.mx * p.dy + p.my * p.dx);
+      r.j[4] = by_shape * p.my * p.dy;
+      r.j[5] = n.tail;
+      r.j[6] = Lanes{} + 1.0F;
+      r.j[7] = steep * (p.distance * c.inverse_blur - 0.5F * c.blur * p.curvature);
+      totals.chi_square += r.weight * r.residual * r.residual;
+      if (++filled == kChunk) {
+        add_chunk(rows, filled, totals);
+        filled = 0;
       }
-      chi_square += weight * residual * residual;
-      count += usable;
     }
   }
-  for (int k = 0; k < NormalEquations::kUpper; ++k)
-    result.matrix[static_cast<std::size_t>(k)] = sum_of(matrix[k]);
-  for (int a = 0; a < kN; ++a) result.right[static_cast<std::size_t>(a)] = sum_of(right[a]);
-  result.chi_square = sum_of(chi_square);
-  result.usable = sum_of(count);
+  add_chunk(rows, filled, totals);
+  for (int k = 0; k < NormalEquations::kUpper; ++k) {
+    result.matrix[static_cast<std::size_t>(k)] = sum_of(totals.matrix[k]);
+  }
+  for (int a = 0; a < kN; ++a) result.right[static_cast<std::size_t>(a)] = sum_of(totals.right[a]);
+  result.chi_square = sum_of(totals.chi_square);
+  result.usable = sum_of(totals.count);
 }
 
-ASTERISM_CLONES void evaluate_all(const Patch& patch, const EdgeModel& model, float* share, float* distance) {
+ASTERISM_CLONES void all_distances(const Patch& patch, const EdgeModel& model, float* distance) {
   const Constants c(model);
   for (int row = 0; row < patch.rows; ++row) {
     const Lanes dy = Lanes{} + (static_cast<float>(row) - c.y);
-    for (int column = 0; column < patch.stride; column += 8) {
-      const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(row) * patch.stride + column;
+    const auto [begin, end] = patch.spans[static_cast<std::size_t>(row)];
+    for (int column = begin; column < end; column += 8) {
       const Place p = place(c, kCount + (static_cast<float>(column) - c.x), dy);
-      const Lanes tail = normal(p.distance * c.inverse_blur + 0.5F * c.blur * p.curvature).tail;
-      std::memcpy(share + at, &tail, sizeof tail);
-      std::memcpy(distance + at, &p.distance, sizeof tail);
+      std::memcpy(distance + static_cast<std::ptrdiff_t>(row) * patch.stride + column, &p.distance,
+                  sizeof p.distance);
     }
   }
 }
@@ -184,10 +253,10 @@ NormalEquations normal_equations(const Patch& patch, const EdgeModel& model, con
   return result;
 }
 
-void evaluate(const Patch& patch, const EdgeModel& model, PatchModel& result) {
-  result.share.resize(patch.grey.size());
-  result.distance.resize(patch.grey.size());
-  evaluate_all(patch, model, result.share.data(), result.distance.data());
+std::vector<float> distances(const Patch& patch, const EdgeModel& model) {
+  std::vector<float> result(patch.grey.size());
+  all_distances(patch, model, result.data());
+  return result;
 }
 
 }  // namespace asterism

@@ -14,7 +14,9 @@ struct Patch {
   int stride = 0, rows = 0;
   std::vector<float> grey;
   std::vector<float> usable;      // 1, or 0 where the pixel must not count
-  std::vector<float> unevenness;  // background minus its mean
+  std::vector<float> unevenness;  // background minus its mean; empty when it is even
+  std::vector<std::array<int, 2>>
+      spans;  // of each row: from which to before which column pixels count at all
 };
 
 /// A disc's image: an ellipse |M (p − centre)| = 1 with M symmetric, blurred by a Gaussian.
@@ -31,9 +33,9 @@ struct EdgeModel {
   static constexpr int kParameters = 8;
 };
 
-/// Variance of a pixel as a polynomial in m, the share of the disc in it.
+/// Variance of a pixel: outside + linear · m, m the share of the disc in it.
 struct EdgeNoise {
-  double outside = 1, linear = 0, square = 0;
+  double outside = 1, linear = 0;
 };
 
 /// Weighted normal equations of the model about `model`: Σ w j jᵀ (upper triangle by rows), Σ w j r, Σ w r²
@@ -48,10 +50,7 @@ struct NormalEquations {
 [[nodiscard]] NormalEquations normal_equations(const Patch& patch, const EdgeModel& model,
                                                const EdgeNoise& noise);
 
-/// What the model says of each pixel: its share m of the disc and its signed distance d in px.
-struct PatchModel {
-  std::vector<float> share, distance;
-};
-void evaluate(const Patch& patch, const EdgeModel& model, PatchModel& result);
+/// Signed distance of each pixel within the spans to the model's ellipse, px.
+[[nodiscard]] std::vector<float> distances(const Patch& patch, const EdgeModel& model);
 
 }  // namespace asterism

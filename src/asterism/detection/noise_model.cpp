@@ -3,10 +3,12 @@
 
 #include <cmath>
 
+#include "asterism/detection/patch.hpp"
+
 namespace asterism {
 namespace {
 
-constexpr float kInside = 0.995F, kOutside = 0.005F;
+constexpr double kReach = 2.7;  // blurs from the edge within which its shape matters
 
 struct Sample {
   double level, variance, pixels;
@@ -14,19 +16,18 @@ struct Sample {
 
 }  // namespace
 
-Scatter scatter_of(const Patch& patch, const EdgeModel& model) {
-  PatchModel at;
-  evaluate(patch, model, at);
+Scatter scatter_of(const Patch& patch, const std::vector<float>& distance, const EdgeModel& model) {
+  const auto reach = static_cast<float>(kReach * model.blur + 0.3);
   double in[3] = {}, out[3] = {};
-  for (std::size_t i = 0; i < patch.grey.size(); ++i) {
-    if (patch.usable[i] == 0) continue;
-    if (at.share[i] > kOutside && at.share[i] < kInside) continue;
-    double* sums = at.share[i] >= kInside ? in : out;
-    const double grey = patch.grey[i] - patch.unevenness[i] * (1 - at.share[i]);
+  for_each_pixel(patch, [&](std::size_t i) {
+    const float d = distance[i];
+    if (patch.usable[i] == 0 || (d > -reach && d < reach)) return;
+    const double grey = patch.grey[i] - (d > 0 && !patch.unevenness.empty() ? patch.unevenness[i] : 0.0F);
+    double* sums = d < 0 ? in : out;
     sums[0] += 1;
     sums[1] += grey;
     sums[2] += grey * grey;
-  }
+  });
   const auto variance = [](const double* s) {
     return s[0] < 4 ? 0.0 : std::max(0.0, (s[2] - s[1] * s[1] / s[0]) / (s[0] - 1));
   };
@@ -88,7 +89,7 @@ EdgeNoise edge_noise(const NoiseModel& noise, const Scatter& scatter, const Edge
       clearly(scatter.outside_variance, noise.variance(model.background), scatter.outside_pixels);
   const double inside = clearly(scatter.inside_variance, noise.variance(model.background + model.amplitude),
                                 scatter.inside_pixels);
-  return {outside, inside - outside, 0};
+  return {outside, inside - outside};
 }
 
 }  // namespace asterism

@@ -13,7 +13,8 @@ struct Scatter {
   double outside_level = 0, outside_variance = 0, outside_pixels = 0;
   double inside_level = 0, inside_variance = 0, inside_pixels = 0;
 };
-[[nodiscard]] Scatter scatter_of(const Patch& patch, const EdgeModel& model);
+[[nodiscard]] Scatter scatter_of(const Patch& patch, const std::vector<float>& distance,
+                                 const EdgeModel& model);
 
 /// Variance of a pixel against its grey level: read noise, shot noise and fixed pattern taken together as a
 /// straight line, which they are to some percent between a target's background and its plateau.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "asterism/detection/edge_fit.hpp"
 
@@ -11,6 +12,9 @@ namespace {
 
 constexpr float kBeyondImage = -1.0F;  // marks `usable` until neighbours are masked
 constexpr float kAtCeiling = -2.0F;
+constexpr float kEdgeReach = 2.5F;  // px from the edge where its own light ends
+constexpr float kFootReach = 4.0F;  // px from the edge where a neighbour's light matters
+constexpr double kNeighbourShare = 0.15;
 
 float median(std::vector<float>& values) {
   if (values.empty()) return 0;
@@ -19,10 +23,29 @@ float median(std::vector<float>& values) {
   return *middle;
 }
 
+/// Of each row what lies within the ellipse grown by the margin, in groups of eight columns.
+void fill_spans(Patch& patch, const Ellipse& ellipse, double margin) {
+  Ellipse grown = ellipse;
+  grown.semi_major += margin;
+  grown.semi_minor += margin;
+  const Mat2 shape = shape_matrix(grown);
+  const double width = std::sqrt(shape.determinant() / shape(1, 1));
+  patch.spans.resize(static_cast<std::size_t>(patch.rows));
+  for (int row = 0; row < patch.rows; ++row) {
+    const double dy = row + patch.y - ellipse.centre.y();
+    const double half = width * std::sqrt(std::max(0.0, 1 - dy * dy / shape(1, 1)));
+    const double middle = ellipse.centre.x() - patch.x + shape(0, 1) / shape(1, 1) * dy;
+    const int begin = std::clamp(static_cast<int>(middle - half), 0, patch.stride - 1) / 8 * 8;
+    const int end = std::clamp(static_cast<int>(middle + half) + 1, 1, patch.stride);
+    patch.spans[static_cast<std::size_t>(row)] = {begin, (end + 7) / 8 * 8};
+  }
+}
+
 }  // namespace
 
 template <class Grey>
-GreyScale grey_scale(double step, double brightest) {
+GreyScale grey_scale(Tone<Grey> tone, double step, double brightest) {
+  if (tone.flip != 0) return {static_cast<double>(tone.flip), step};
   if (sizeof(Grey) == 1) return {255, step};
   for (const int bits : {8, 10, 12, 14}) {
     const double ceiling = step * ((1 << bits) - 1);
@@ -31,8 +54,8 @@ GreyScale grey_scale(double step, double brightest) {
   return {65535, step};
 }
 
-template GreyScale grey_scale<std::uint8_t>(double, double);
-template GreyScale grey_scale<std::uint16_t>(double, double);
+template GreyScale grey_scale(Tone<std::uint8_t>, double, double);
+template GreyScale grey_scale(Tone<std::uint16_t>, double, double);
 
 template <class Grey>
 Patch cut_patch(const Raster<Grey>& image, Tone<Grey> tone, const GreyScale& scale, const Ellipse& ellipse,
@@ -48,7 +71,7 @@ Patch cut_patch(const Raster<Grey>& image, Tone<Grey> tone, const GreyScale& sca
   const auto size = static_cast<std::size_t>(patch.stride) * static_cast<std::size_t>(patch.rows);
   patch.grey.assign(size, 0.0F);
   patch.usable.assign(size, kBeyondImage);
-  patch.unevenness.assign(size, 0.0F);
+  fill_spans(patch, ellipse, margin);
   const auto factor = static_cast<float>(1.0 / scale.ceiling);
   const int x_begin = std::max(0, patch.x), x_end = std::min(image.width, patch.x + patch.stride);
   for (int y = std::max(0, patch.y); y < std::min(image.height, patch.y + patch.rows); ++y) {
@@ -67,48 +90,71 @@ Patch cut_patch(const Raster<Grey>& image, Tone<Grey> tone, const GreyScale& sca
 template Patch cut_patch(const Raster8&, Tone<std::uint8_t>, const GreyScale&, const Ellipse&, double);
 template Patch cut_patch(const Raster16&, Tone<std::uint16_t>, const GreyScale&, const Ellipse&, double);
 
-PatchContent mask_neighbours(Patch& patch, const Ellipse& ellipse) {
-  constexpr double kEdgeReach = 2.5;  // px from the edge where its own light ends
-  constexpr double kFootReach = 4.0;  // px from the edge where a neighbour's light matters
-  constexpr float kNeighbourShare = 0.15F;
+template <class Grey>
+GreyScale grey_scale(const Raster<Grey>& image, Tone<Grey> tone, const Ellipse& ellipse, double margin) {
+  const Patch patch = cut_patch(image, tone, {1, 1}, ellipse, margin);
+  unsigned first = 0, brightest = 0, divisor = 0;
+  bool any = false;
+  for_each_pixel(patch, [&](std::size_t i) {
+    if (patch.usable[i] == kBeyondImage) return;
+    const auto grey = static_cast<unsigned>(patch.grey[i]);
+    if (!any) first = grey;
+    any = true;
+    brightest = std::max(brightest, grey);
+    divisor = std::gcd(divisor, grey > first ? grey - first : first - grey);
+  });
+  return grey_scale<Grey>(tone, std::max(1U, divisor), brightest);
+}
+
+template GreyScale grey_scale(const Raster8&, Tone<std::uint8_t>, const Ellipse&, double);
+template GreyScale grey_scale(const Raster16&, Tone<std::uint16_t>, const Ellipse&, double);
+
+PatchContent look_at(const Patch& patch, const Ellipse& ellipse) {
   PatchContent content;
-  const EdgeModel model = model_of(patch, ellipse);
-  PatchModel place;
-  evaluate(patch, model, place);
+  content.distance = distances(patch, model_of(patch, ellipse));
   std::vector<float> inside, outside;
-  for (std::size_t i = 0; i < patch.grey.size(); ++i) {
-    const float d = place.distance[i];
+  inside.reserve(patch.grey.size());
+  outside.reserve(patch.grey.size());
+  const auto well_inside = static_cast<float>(-std::min(1.0, 0.5 * ellipse.semi_minor));
+  // Every third pixel of a large disc tells the medians well enough.
+  const std::size_t every = ellipse.semi_minor > 4 ? 3 : 1;
+  for_each_pixel(patch, [&](std::size_t i) {
+    const float d = content.distance[i];
     if (patch.usable[i] == kBeyondImage) {
       content.border |= d < kEdgeReach;
-    } else {
-      content.disc_pixels += d < 0;
-      content.saturated += d < 0 && patch.usable[i] == kAtCeiling;
-      if (d < -std::min(1.0, 0.5 * ellipse.semi_minor)) inside.push_back(patch.grey[i]);
-      if (d > kEdgeReach) outside.push_back(patch.grey[i]);
+      return;
     }
-  }
+    content.disc_pixels += d < 0;
+    content.saturated += d < 0 && patch.usable[i] == kAtCeiling;
+    if (i % every != 0) return;
+    if (d < well_inside) inside.push_back(patch.grey[i]);
+    if (d > kEdgeReach) outside.push_back(patch.grey[i]);
+  });
   content.inside = median(inside);
   content.outside = median(outside);
-  const auto level = static_cast<float>(content.outside) +
-                     kNeighbourShare * static_cast<float>(content.inside - content.outside);
+  return content;
+}
+
+void mask_neighbours(Patch& patch, PatchContent& content) {
+  const auto level =
+      static_cast<float>(content.outside + kNeighbourShare * (content.inside - content.outside));
   std::vector<std::size_t> bright;
-  for (std::size_t i = 0; i < patch.grey.size(); ++i) {
-    if (place.distance[i] > kEdgeReach && patch.grey[i] > level && patch.usable[i] != kBeyondImage)
+  for_each_pixel(patch, [&](std::size_t i) {
+    if (content.distance[i] > kEdgeReach && patch.grey[i] > level && patch.usable[i] != kBeyondImage)
       bright.push_back(i);
-  }
-  for (float& usable : patch.usable) usable = std::max(usable, 0.0F);
+    patch.usable[i] = std::max(patch.usable[i], 0.0F);
+  });
   for (const std::size_t i : bright) {
     const int column = static_cast<int>(i) % patch.stride, row = static_cast<int>(i) / patch.stride;
-    content.neighbour_near |= place.distance[i] < kFootReach;
+    content.neighbour_near |= content.distance[i] < kFootReach;
     for (int y = std::max(0, row - 2); y <= std::min(patch.rows - 1, row + 2); ++y) {
       for (int x = std::max(0, column - 2); x <= std::min(patch.stride - 1, column + 2); ++x) {
         const auto k = static_cast<std::size_t>(y * patch.stride + x);
         // The target's own edge stays in.
-        if (place.distance[k] > 0.5) patch.usable[k] = 0;
+        if (content.distance[k] > 0.5F) patch.usable[k] = 0;
       }
     }
   }
-  return content;
 }
 
 }  // namespace asterism

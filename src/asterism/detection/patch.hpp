@@ -14,11 +14,18 @@ struct GreyScale {
   double step = 1;       // the smallest grey step in use
 };
 
-/// The ceiling of 16-bit images is taken as 10, 12, 14 or 16 bits of `step`, whatever just holds `brightest`.
+/// The ceiling of 16-bit images is taken as 10, 12, 14 or 16 bits of `step`, whatever just holds `brightest`;
+/// for dark discs it is black.
 template <class Grey>
-[[nodiscard]] GreyScale grey_scale(double step, double brightest);
+[[nodiscard]] GreyScale grey_scale(Tone<Grey> tone, double step, double brightest);
 
-/// Cuts out the ellipse and `margin` px around it. Pixels beyond the image or at the ceiling are not usable.
+/// From the pixels around one target alone.
+template <class Grey>
+[[nodiscard]] GreyScale grey_scale(const Raster<Grey>& image, Tone<Grey> tone, const Ellipse& ellipse,
+                                   double margin);
+
+/// Cuts out the ellipse and about `margin` px around it. Pixels beyond the image or at the ceiling are not
+/// usable.
 template <class Grey>
 [[nodiscard]] Patch cut_patch(const Raster<Grey>& image, Tone<Grey> tone, const GreyScale& scale,
                               const Ellipse& ellipse, double margin);
@@ -29,11 +36,24 @@ struct PatchContent {
   int saturated = 0;               // pixels of the disc at the ceiling
   int disc_pixels = 0;             // pixels of the disc in the image
   bool neighbour_near = false;     // a neighbour's light reaches the edge's foot
+  std::vector<float> distance;     // of each pixel to the ellipse, px
   bool border = false;             // part of the edge's reach lies beyond the image
 };
 
-/// Looks at the patch and makes pixels of neighbours unusable: what is brighter than the background by a part
-/// of the amplitude yet clear of the ellipse, and two pixels around that.
-[[nodiscard]] PatchContent mask_neighbours(Patch& patch, const Ellipse& ellipse);
+[[nodiscard]] PatchContent look_at(const Patch& patch, const Ellipse& ellipse);
+
+/// Makes pixels of neighbours unusable: what is brighter than the background by a part of the amplitude yet
+/// clear of the ellipse, and two pixels around that.
+void mask_neighbours(Patch& patch, PatchContent& content);
+
+/// Calls `body(i)` for the index of each pixel within the spans.
+template <class Body>
+void for_each_pixel(const Patch& patch, Body&& body) {
+  for (int row = 0; row < patch.rows; ++row) {
+    const auto [begin, end] = patch.spans[static_cast<std::size_t>(row)];
+    const auto at = static_cast<std::size_t>(row * patch.stride);
+    for (auto i = at + static_cast<std::size_t>(begin); i < at + static_cast<std::size_t>(end); ++i) body(i);
+  }
+}
 
 }  // namespace asterism

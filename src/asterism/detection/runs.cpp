@@ -6,52 +6,12 @@
 #include <cstring>
 #include <limits>
 
-#include "asterism/detection/clones.hpp"
+#include "asterism/detection/lanes.hpp"
 
 namespace asterism {
 namespace {
 
 constexpr int kBlock = 32;
-
-template <class Grey>
-struct Vector;
-template <>
-struct Vector<std::uint8_t> {
-  using Type = std::uint8_t __attribute__((vector_size(32)));
-};
-template <>
-struct Vector<std::uint16_t> {
-  using Type = std::uint16_t __attribute__((vector_size(32)));
-};
-using Words = std::uint64_t __attribute__((vector_size(32)));
-
-/// Whether any of 32 pixels, turned by `flip`, is above the threshold.
-template <class Grey>
-ASTERISM_INLINE bool any_above(const Grey* pixels, Grey flip, Grey threshold) {
-  using Lanes = typename Vector<Grey>::Type;
-  Words found{};
-  for (std::size_t part = 0; part < kBlock * sizeof(Grey) / 32; ++part) {
-    Lanes lanes;
-    std::memcpy(&lanes, pixels + part * (32 / sizeof(Grey)), 32);
-    found |= reinterpret_cast<Words>((lanes ^ flip) > threshold);
-  }
-  return (found[0] | found[1] | found[2] | found[3]) != 0;
-}
-
-/// A bit for each of 32 pixels above the threshold.
-template <class Grey>
-ASTERISM_INLINE std::uint32_t bits_above(const Grey* pixels, Grey flip, Grey threshold) {
-  std::uint32_t bits = 0;
-  for (int i = 0; i < kBlock; ++i) bits |= static_cast<std::uint32_t>((pixels[i] ^ flip) > threshold) << i;
-  return bits;
-}
-
-/// A level above which exactly the pixels > `threshold` lie, as a grey value.
-template <class Grey>
-ASTERISM_INLINE Grey as_grey(float threshold) {
-  constexpr float kMost = std::numeric_limits<Grey>::max();
-  return static_cast<Grey>(threshold <= 0 ? 0.0F : threshold >= kMost ? kMost : threshold);
-}
 
 struct OpenRun {
   int begin = -1;
@@ -74,41 +34,80 @@ ASTERISM_INLINE void add_bits(std::uint32_t bits, int count, int x, int y, OpenR
   }
 }
 
+/// Pixels, turned so that discs are bright, and their thresholds.
 template <class Grey>
-ASTERISM_INLINE void runs_of_row(const Grey* row, int y, int x_begin, int x_end, const float* thresholds,
-                                 Grey flip, std::vector<Run>& runs) {
+struct Line {
+  const Grey* row;
+  int width;
+  const Grey* thresholds;  // may be null
+  Grey level, flip;
+
+  static constexpr int kLanes = 32 / sizeof(Grey);
+
+  /// All ones where one of kLanes pixels is above its threshold.
+  [[nodiscard]] ASTERISM_INLINE WordLanes above(int x) const {
+    GreyLanes<Grey> lanes, limit = GreyLanes<Grey>{} + level;
+    std::memcpy(&lanes, row + x, 32);
+    if (thresholds != nullptr) std::memcpy(&limit, thresholds + x, 32);
+    return reinterpret_cast<WordLanes>((lanes ^ flip) > limit);
+  }
+
+  /// A bit for each of 32 pixels; those beyond the image are zero.
+  [[nodiscard]] ASTERISM_INLINE std::uint32_t bits(int x) const {
+    std::uint32_t found = 0;
+    if (x + kBlock > width) {
+      for (int i = 0; x + i < width; ++i) {
+        const Grey limit = thresholds != nullptr ? thresholds[x + i] : level;
+        found |= static_cast<std::uint32_t>((row[x + i] ^ flip) > limit) << i;
+      }
+      return found;
+    }
+    // Of each lane the bit of its place is kept, and a product adds the lanes of a word up in its top one.
+    constexpr bool kBytes = sizeof(Grey) == 1;
+    constexpr std::uint64_t kPlaces = kBytes ? 0x8040201008040201 : 0x0008000400020001;
+    constexpr std::uint64_t kOnes = kBytes ? 0x0101010101010101 : 0x0001000100010001;
+    constexpr int kTop = kBytes ? 56 : 48, kInWord = 8 / sizeof(Grey);
+    for (int part = 0; part < kBlock; part += kLanes) {
+      const WordLanes words = above(x + part);
+      for (int i = 0; i < 4; ++i) {
+        found |= static_cast<std::uint32_t>(((words[i] & kPlaces) * kOnes) >> kTop) << (part + i * kInWord);
+      }
+    }
+    return found;
+  }
+};
+
+ASTERISM_INLINE bool any(WordLanes words) { return (words[0] | words[1] | words[2] | words[3]) != 0; }
+
+template <class Grey>
+ASTERISM_INLINE void runs_of_row(const Line<Grey>& line, int y, int x_begin, int x_end,
+                                 std::vector<Run>& runs) {
+  constexpr int kStride = 4 * Line<Grey>::kLanes;
   OpenRun open;
   int x = x_begin;
   while (x < x_end) {
-    const int block_end = std::min(x_end, (x / kBlock + 1) * kBlock);
-    const Grey threshold = as_grey<Grey>(thresholds[x / kBlock]);
-    const int count = block_end - x;
-    if (count == kBlock) {
-      if (any_above(row + x, flip, threshold)) {
-        add_bits(bits_above(row + x, flip, threshold), kBlock, x, y, open, runs);
-      } else if (open.begin >= 0) {
-        runs.push_back({y, open.begin, x});
-        open.begin = -1;
-      }
-    } else {
-      std::uint32_t bits = 0;
-      for (int i = 0; i < count; ++i)
-        bits |= static_cast<std::uint32_t>((row[x + i] ^ flip) > threshold) << i;
-      add_bits(bits, count, x, y, open, runs);
+    // Most of an image is background: leap over it.
+    if (open.begin < 0 && x + kStride <= x_end &&
+        !any(line.above(x) | line.above(x + kStride / 4) | line.above(x + kStride / 2) |
+             line.above(x + kStride * 3 / 4))) {
+      x += kStride;
+      continue;
     }
-    x = block_end;
+    const int leap_end = std::min(x_end, x + kStride);
+    for (; x < leap_end; x += kBlock) add_bits(line.bits(x), std::min(kBlock, x_end - x), x, y, open, runs);
+    x = std::min(x, x_end);
   }
   if (open.begin >= 0) runs.push_back({y, open.begin, x_end});
 }
 
-ASTERISM_CLONES void runs_of_row_8(const std::uint8_t* row, int y, int x_begin, int x_end,
-                                   const float* thresholds, std::uint8_t flip, std::vector<Run>& runs) {
-  runs_of_row(row, y, x_begin, x_end, thresholds, flip, runs);
+ASTERISM_CLONES void runs_of_row_8(const Line<std::uint8_t>& line, int y, int x_begin, int x_end,
+                                   std::vector<Run>& runs) {
+  runs_of_row(line, y, x_begin, x_end, runs);
 }
 
-ASTERISM_CLONES void runs_of_row_16(const std::uint16_t* row, int y, int x_begin, int x_end,
-                                    const float* thresholds, std::uint16_t flip, std::vector<Run>& runs) {
-  runs_of_row(row, y, x_begin, x_end, thresholds, flip, runs);
+ASTERISM_CLONES void runs_of_row_16(const Line<std::uint16_t>& line, int y, int x_begin, int x_end,
+                                    std::vector<Run>& runs) {
+  runs_of_row(line, y, x_begin, x_end, runs);
 }
 
 /// Sums over the pixels of a blob, about the pixel (0, 0).
@@ -155,15 +154,15 @@ struct Sets {
 }  // namespace
 
 template <>
-void append_runs_of_row(const std::uint8_t* row, int y, int x_begin, int x_end, const float* thresholds,
-                        Tone<std::uint8_t> tone, std::vector<Run>& runs) {
-  runs_of_row_8(row, y, x_begin, x_end, thresholds, tone.flip, runs);
+void append_runs_of_row(const Raster8& image, int y, int x_begin, int x_end, const std::uint8_t* thresholds,
+                        std::uint8_t level, Tone<std::uint8_t> tone, std::vector<Run>& runs) {
+  runs_of_row_8({image.row(y), image.width, thresholds, level, tone.flip}, y, x_begin, x_end, runs);
 }
 
 template <>
-void append_runs_of_row(const std::uint16_t* row, int y, int x_begin, int x_end, const float* thresholds,
-                        Tone<std::uint16_t> tone, std::vector<Run>& runs) {
-  runs_of_row_16(row, y, x_begin, x_end, thresholds, tone.flip, runs);
+void append_runs_of_row(const Raster16& image, int y, int x_begin, int x_end, const std::uint16_t* thresholds,
+                        std::uint16_t level, Tone<std::uint16_t> tone, std::vector<Run>& runs) {
+  runs_of_row_16({image.row(y), image.width, thresholds, level, tone.flip}, y, x_begin, x_end, runs);
 }
 
 std::vector<Blob> blobs_of(const std::vector<Run>& runs) {

@@ -19,11 +19,11 @@ struct PixelBox {
   int x_begin, y_begin, x_end, y_end;  // half open
 };
 
-/// Runs of a box above the threshold that holds at each block of 32 pixels counted from x = 0, row by row.
-/// `thresholds(y)` returns a pointer to the row's block thresholds.
+/// Appends the runs of pixels [x_begin, x_end) of row y that lie above the threshold. `thresholds` has one
+/// for each pixel of the row, or is null: then `level` holds for all.
 template <class Grey>
-void append_runs_of_row(const Grey* row, int y, int x_begin, int x_end, const float* thresholds,
-                        Tone<Grey> tone, std::vector<Run>& runs);
+void append_runs_of_row(const Raster<Grey>& image, int y, int x_begin, int x_end, const Grey* thresholds,
+                        Grey level, Tone<Grey> tone, std::vector<Run>& runs);
 
 /// A set of connected pixels (eight neighbours) by its moments.
 struct Blob {

@@ -4,7 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <limits>
 #include <numeric>
+
+#include "asterism/detection/lanes.hpp"
 
 namespace asterism {
 namespace {
@@ -25,13 +29,90 @@ Between between_tiles(double at, int tiles) {
   return {low, std::min(low + 1, tiles - 1), static_cast<float>(tile - low)};
 }
 
+template <class Grey>
+struct Sample {
+  alignas(32) std::array<Grey, kSamples> values{};
+
+  /// How many are at most `level`.
+  [[nodiscard]] ASTERISM_INLINE int count_up_to(Grey level) const {
+    int bits = 0;
+    for (std::size_t part = 0; part < sizeof values; part += 32) {
+      GreyLanes<Grey> lanes;
+      std::memcpy(&lanes, reinterpret_cast<const char*>(values.data()) + part, 32);
+      const auto found = reinterpret_cast<WordLanes>(lanes <= level);
+      for (int i = 0; i < 4; ++i) bits += __builtin_popcountll(found[i]);
+    }
+    return bits / static_cast<int>(8 * sizeof(Grey));
+  }
+
+  /// The least value that at least `count` samples do not exceed, by bisection over the bits.
+  [[nodiscard]] ASTERISM_INLINE Grey quantile(int count) const {
+    unsigned below = 0;
+    for (unsigned bit = 1U << (8 * sizeof(Grey) - 1); bit != 0; bit >>= 1) {
+      if (count_up_to(static_cast<Grey>(below + bit - 1)) < count) below += bit;
+    }
+    return static_cast<Grey>(below);
+  }
+};
+
 /// Mean of the lower three quarters of |differences| of normal noise is 0.728 standard deviations.
 template <class Grey>
-float noise_of(std::array<Grey, kSamples>& differences) {
-  constexpr int kKept = kSamples * 3 / 4;
-  std::nth_element(differences.begin(), differences.begin() + kKept, differences.end());
-  const double sum = std::accumulate(differences.begin(), differences.begin() + kKept, 0.0);
-  return static_cast<float>(sum / kKept / 0.728);
+ASTERISM_INLINE float noise_of(const Sample<Grey>& differences) {
+  constexpr unsigned kKept = kSamples * 3 / 4;
+  const Grey most = differences.quantile(kKept);
+  unsigned sum = 0, below = 0;
+  for (const Grey value : differences.values) {
+    sum += value < most ? value : 0U;
+    below += value < most;
+  }
+  return static_cast<float>((sum + (kKept - below) * most) / (0.728 * kKept));
+}
+
+/// Samples one tile; `divisor` gathers the greatest common divisor of differences.
+template <class Grey>
+ASTERISM_INLINE void sample_tile(const Grey* tile, int stride, int width, int height, Tone<Grey> tone,
+                                 Sample<Grey>& levels, Sample<Grey>& differences, unsigned& divisor) {
+  for (int j = 0; j < kSamplesDown; ++j) {
+    const Grey* line = tile + static_cast<std::ptrdiff_t>((2 * j + 1) * height / (2 * kSamplesDown)) * stride;
+    for (int i = 0; i < kSamplesAcross; ++i) {
+      const int x = (2 * i + 1) * width / (2 * kSamplesAcross);
+      const Grey here = tone(line[x]), beside = tone(line[x > 0 ? x - 1 : std::min(1, width - 1)]);
+      const auto k = static_cast<std::size_t>(j * kSamplesAcross + i);
+      const auto difference = static_cast<Grey>(here > beside ? here - beside : beside - here);
+      levels.values[k] = here;
+      differences.values[k] = difference;
+      if (divisor != 1 && difference != 0) divisor = std::gcd(divisor, static_cast<unsigned>(difference));
+    }
+  }
+}
+
+/// Background and noise of all tiles; returns the grey step.
+template <class Grey>
+ASTERISM_INLINE unsigned fill_tiles(const Raster<Grey>& image, Tone<Grey> tone, int columns, int rows,
+                                    float* background, float* noise) {
+  constexpr int kTile = ThresholdMap::kTile;
+  Sample<Grey> levels, differences;
+  unsigned divisor = 0;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const int width = std::min(kTile, image.width - column * kTile);
+      const int height = std::min(kTile, image.height - row * kTile);
+      sample_tile(image.row(row * kTile) + column * kTile, image.width, width, height, tone, levels,
+                  differences, divisor);
+      *background++ = levels.quantile(kSamples * 2 / 5);
+      *noise++ = noise_of(differences);
+    }
+  }
+  return divisor;
+}
+
+ASTERISM_CLONES unsigned fill_tiles_8(const Raster8& image, Tone<std::uint8_t> tone, int columns, int rows,
+                                      float* background, float* noise) {
+  return fill_tiles(image, tone, columns, rows, background, noise);
+}
+ASTERISM_CLONES unsigned fill_tiles_16(const Raster16& image, Tone<std::uint16_t> tone, int columns, int rows,
+                                       float* background, float* noise) {
+  return fill_tiles(image, tone, columns, rows, background, noise);
 }
 
 }  // namespace
@@ -53,31 +134,11 @@ ThresholdMap threshold_map(const Raster<Grey>& image, Tone<Grey> tone) {
   map.rows = (image.height + kTile - 1) / kTile;
   map.background.resize(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows));
   map.noise.resize(map.background.size());
-  std::array<Grey, kSamples> levels{}, differences{};
   unsigned divisor = 0;
-  for (int row = 0; row < map.rows; ++row) {
-    const int height = std::min(kTile, image.height - row * kTile);
-    for (int column = 0; column < map.columns; ++column) {
-      const int width = std::min(kTile, image.width - column * kTile);
-      for (int j = 0; j < kSamplesDown; ++j) {
-        const Grey* line =
-            image.row(row * kTile + (2 * j + 1) * height / (2 * kSamplesDown)) + column * kTile;
-        for (int i = 0; i < kSamplesAcross; ++i) {
-          const int x = (2 * i + 1) * width / (2 * kSamplesAcross);
-          const Grey here = tone(line[x]), beside = tone(line[x > 0 ? x - 1 : std::min(1, width - 1)]);
-          const auto k = static_cast<std::size_t>(j * kSamplesAcross + i);
-          levels[k] = here;
-          differences[k] = static_cast<Grey>(here > beside ? here - beside : beside - here);
-          if (differences[k] != 0 && divisor != 1)
-            divisor = std::gcd(divisor, static_cast<unsigned>(differences[k]));
-        }
-      }
-      constexpr int kQuantile = kSamples * 2 / 5;
-      std::nth_element(levels.begin(), levels.begin() + kQuantile, levels.end());
-      const auto tile = static_cast<std::size_t>(row * map.columns + column);
-      map.background[tile] = levels[kQuantile];
-      map.noise[tile] = noise_of(differences);
-    }
+  if constexpr (sizeof(Grey) == 1) {
+    divisor = fill_tiles_8(image, tone, map.columns, map.rows, map.background.data(), map.noise.data());
+  } else {
+    divisor = fill_tiles_16(image, tone, map.columns, map.rows, map.background.data(), map.noise.data());
   }
   map.step = std::max(1U, divisor);
   return map;
@@ -102,8 +163,11 @@ ThresholdMap lowered(const ThresholdMap& map, int reach) {
   return low;
 }
 
+template <class Grey>
 void thresholds_of_row(const ThresholdMap& map, int y, double levels, double sigmas,
-                       std::vector<float>& blocks) {
+                       std::vector<Grey>& thresholds) {
+  constexpr int kBlock = ThresholdMap::kTile / 2;
+  constexpr float kMost = std::numeric_limits<Grey>::max();
   const Between v = between_tiles(y, map.rows);
   const auto least = static_cast<float>(levels * map.step);
   const auto factor = static_cast<float>(sigmas);
@@ -115,16 +179,20 @@ void thresholds_of_row(const ThresholdMap& map, int y, double levels, double sig
     const float top = one(v.low);
     return top + v.share * (one(v.high) - top);
   };
-  blocks.resize(static_cast<std::size_t>(map.columns) * 2);
+  thresholds.resize(static_cast<std::size_t>(map.columns) * 2 * kBlock);
   float left = of_tile(0);
   for (int column = 0; column < map.columns; ++column) {
     // Block centres lie a quarter tile left and right of the tile's centre.
     const float here = of_tile(column);
     const float right = of_tile(std::min(column + 1, map.columns - 1));
-    blocks[static_cast<std::size_t>(2 * column)] = here + 0.25F * (left - here);
-    blocks[static_cast<std::size_t>(2 * column) + 1] = here + 0.25F * (right - here);
+    Grey* block = thresholds.data() + static_cast<std::ptrdiff_t>(column) * 2 * kBlock;
+    std::fill_n(block, kBlock, static_cast<Grey>(std::min(kMost, here + 0.25F * (left - here))));
+    std::fill_n(block + kBlock, kBlock, static_cast<Grey>(std::min(kMost, here + 0.25F * (right - here))));
     left = here;
   }
 }
+
+template void thresholds_of_row(const ThresholdMap&, int, double, double, std::vector<std::uint8_t>&);
+template void thresholds_of_row(const ThresholdMap&, int, double, double, std::vector<std::uint16_t>&);
 
 }  // namespace asterism

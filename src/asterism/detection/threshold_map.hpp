@@ -35,8 +35,10 @@ template <class Grey>
 /// discs beside something bright.
 [[nodiscard]] ThresholdMap lowered(const ThresholdMap& map, int reach);
 
-/// The threshold of row y for each block of 32 pixels: background + max(levels · step, sigmas · noise).
+/// The threshold of each pixel of row y, in steps of half a tile: background + max(levels · step, sigmas ·
+/// noise). Padded to whole tiles.
+template <class Grey>
 void thresholds_of_row(const ThresholdMap& map, int y, double levels, double sigmas,
-                       std::vector<float>& blocks);
+                       std::vector<Grey>& thresholds);
 
 }  // namespace asterism
