@@ -4,137 +4,56 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <span>
 
 #include "asterism/detection/candidates.hpp"
-#include "asterism/detection/edge_fit.hpp"
-#include "asterism/detection/noise_model.hpp"
-#include "asterism/detection/patch.hpp"
+#include "asterism/detection/target_fit.hpp"
 
 namespace asterism {
 namespace {
-
-constexpr double kMargin = 6;  // px of background around a target
-constexpr BlurPrior kAnyBlur = {0.75, 0.5};
-
-/// One target between its first fit, with uniform weights, and its final one.
-struct FirstFit {
-  Patch patch;
-  PatchContent content;
-  Ellipse ellipse;
-  EdgeModel model;
-  Scatter scatter;
-};
 
 template <class Grey>
 Tone<Grey> tone_of(const DetectionOptions& options) {
   return {options.polarity == Polarity::Dark ? static_cast<Grey>(~Grey{0}) : Grey{0}};
 }
 
-/// The blur is not fitted on small discs, where it cannot be told from size and brightness.
-BlurPrior prior_for(const Ellipse& ellipse, const DetectionOptions& options, double image_blur) {
-  if (options.blur_px > 0) return {options.blur_px, 0};
-  if (std::sqrt(ellipse.semi_major * ellipse.semi_minor) < options.blur_held_below_px) return {image_blur, 0};
-  return {image_blur, 0.5};
-}
-
-template <class Grey>
-class Fitting {
- public:
-  Fitting(const Raster<Grey>& image, Tone<Grey> tone, const GreyScale& scale, const DetectionOptions& options)
-      : image_(image), tone_(tone), scale_(scale), options_(options) {}
-
-  [[nodiscard]] Result<FirstFit, FitFailure> first(const Ellipse& start) const {
-    Patch patch = cut_patch(image_, tone_, scale_, start, kMargin);
-    PatchContent content = look_at(patch, start);
-    mask_neighbours(patch, content);
-    if (2 * content.disc_pixels < std::numbers::pi * start.semi_major * start.semi_minor) {
-      return because(FitFailure::OutsideImage);
+/// Learns how edges look in this image where a Gaussian blur does not explain them, and fits all again.
+void learn_profile(std::vector<TargetFit>& targets, ImageTraits& traits, const DetectionOptions& options) {
+  constexpr std::size_t kFewest = 3;     // targets that must agree
+  constexpr double kUnexplained = 1.12;  // median reduced χ² of targets from which it is worth while
+  constexpr std::uint32_t kOdd = kSaturated | kBorder | kTouching;
+  for (int round = 0; round < 2; ++round) {
+    std::vector<double> chi_squares;
+    for (const TargetFit& target : targets) chi_squares.push_back(reduced_chi_square(target));
+    if (chi_squares.size() < kFewest) return;
+    const auto middle = chi_squares.begin() + static_cast<std::ptrdiff_t>(chi_squares.size() / 2);
+    std::nth_element(chi_squares.begin(), middle, chi_squares.end());
+    if (*middle < kUnexplained) return;
+    std::vector<ProfileView> views;
+    for (const TargetFit& target : targets) {
+      if ((target.flags & kOdd) != 0 || reduced_chi_square(target) > 2 * *middle) continue;
+      views.push_back({&target.patch, target.fit.model, target.noise, target.blur});
     }
-    if (content.inside - content.outside < options_.min_contrast_levels * scale_.step / scale_.ceiling) {
-      return because(FitFailure::NoContrast);
-    }
-    EdgeModel model = model_of(patch, start);
-    model.amplitude = content.inside - content.outside;
-    model.background = content.outside;
-    model.blur = options_.blur_px > 0 ? options_.blur_px : kAnyBlur.mean;
-    const BlurPrior prior = prior_for(start, options_, model.blur);
-    const auto fit = fit_edge(patch, model, unit_noise(content), prior, {20, 0.05});
-    if (!fit) return because(fit.error());
-    const Scatter scatter = scatter_of(patch, content.distance, fit->model);
-    const Ellipse ellipse = ellipse_of(patch, fit->model);
-    return FirstFit{std::move(patch), std::move(content), ellipse, fit->model, scatter};
+    if (views.size() < kFewest) return;
+    traits.profile = improved_profile(traits.profile, views);
+    for (TargetFit& target : targets) static_cast<void>(refit(target, traits, options));
   }
-
-  [[nodiscard]] Result<Centre, FitFailure> final(const FirstFit& before, const NoiseModel& noise,
-                                                 double image_blur) const {
-    const Patch& patch = before.patch;
-    const PatchContent& content = before.content;
-    EdgeModel model = before.model;
-    const BlurPrior prior = prior_for(before.ellipse, options_, image_blur);
-    if (prior.deviation == 0) model.blur = prior.mean;
-    const auto fit = fit_edge(patch, model, edge_noise(noise, before.scatter, model), prior);
-    if (!fit) return because(fit.error());
-    Centre centre;
-    centre.ellipse = ellipse_of(patch, fit->model);
-    centre.covariance = fit->covariance;
-    const double sign = tone_.flip != 0 ? -1 : 1;
-    centre.amplitude = sign * fit->model.amplitude * scale_.ceiling;
-    centre.background = fit->model.background * scale_.ceiling;
-    if (tone_.flip != 0) centre.background = tone_.flip - centre.background;
-    if (20 * content.saturated > content.disc_pixels) centre.flags |= kSaturated;
-    if (content.border) centre.flags |= kBorder;
-    if (content.neighbour_near) centre.flags |= kTouching;
-    if (prior.deviation == 0 && options_.blur_px == 0) centre.flags |= kSmall;
-    return centre;
-  }
-
-  [[nodiscard]] double step() const { return scale_.step / scale_.ceiling; }
-
- private:
-  /// One hundredth of the contrast: puts the prior on the blur in proportion before the noise is known.
-  static EdgeNoise unit_noise(const PatchContent& content) {
-    const double contrast = content.inside - content.outside;
-    return {1e-4 * contrast * contrast, 0};
-  }
-
-  const Raster<Grey>& image_;
-  Tone<Grey> tone_;
-  GreyScale scale_;
-  const DetectionOptions& options_;
-};
-
-/// The median blur of targets large enough to tell it.
-double blur_of_image(std::span<const FirstFit> fits, const DetectionOptions& options) {
-  std::vector<double> blurs;
-  for (const FirstFit& fit : fits) {
-    if (std::sqrt(fit.ellipse.semi_major * fit.ellipse.semi_minor) >= options.blur_held_below_px)
-      blurs.push_back(fit.model.blur);
-  }
-  if (options.blur_px > 0) return options.blur_px;
-  if (blurs.empty()) return kAnyBlur.mean;
-  const auto middle = blurs.begin() + static_cast<std::ptrdiff_t>(blurs.size() / 2);
-  std::nth_element(blurs.begin(), middle, blurs.end());
-  return *middle;
 }
 
 template <class Grey>
 std::vector<Centre> fit_all(const Raster<Grey>& image, Tone<Grey> tone, const FoundCandidates& found,
                             const DetectionOptions& options) {
-  const Fitting<Grey> fitting(image, tone, grey_scale<Grey>(tone, found.step, found.brightest), options);
-  std::vector<FirstFit> firsts;
-  std::vector<Scatter> scatters;
+  const GreyScale scale = grey_scale<Grey>(tone, found.step, found.brightest);
+  std::vector<TargetFit> targets;
   for (const Candidate& candidate : found.candidates) {
-    auto fit = fitting.first(candidate.ellipse);
-    if (!fit) continue;
-    scatters.push_back(fit->scatter);
-    firsts.push_back(std::move(*fit));
+    auto target = first_fit(image, tone, scale, candidate.ellipse, options);
+    if (target) targets.push_back(std::move(*target));
   }
-  const NoiseModel noise = noise_model(scatters, fitting.step());
-  const double blur = blur_of_image(firsts, options);
+  ImageTraits traits = traits_of(targets, scale.step / scale.ceiling, options);
+  std::erase_if(targets, [&](TargetFit& target) { return !refit(target, traits, options); });
+  learn_profile(targets, traits, options);
   std::vector<Centre> centres;
-  for (const FirstFit& first : firsts) {
-    if (const auto centre = fitting.final(first, noise, blur)) centres.push_back(*centre);
+  for (TargetFit& target : targets) {
+    if (judge_outline(target, traits)) centres.push_back(centre_of(target, tone, scale));
   }
   std::sort(centres.begin(), centres.end(), [](const Centre& a, const Centre& b) {
     return std::pair(a.px().y(), a.px().x()) < std::pair(b.px().y(), b.px().x());
@@ -142,15 +61,59 @@ std::vector<Centre> fit_all(const Raster<Grey>& image, Tone<Grey> tone, const Fo
   return centres;
 }
 
+/// A part of an image, and where it begins; empty when the window lies outside.
+template <class Grey>
+struct Part {
+  Raster<Grey> image;
+  Vec2 origin;
+};
+
+template <class Grey>
+Part<Grey> part_of(const Raster<Grey>& image, const SearchWindow& window) {
+  const auto within = [](double at, int most) {
+    return static_cast<int>(std::clamp(std::floor(at), 0.0, 1.0 * most));
+  };
+  const int x = within(window.centre_px.x() - window.radius_px, image.width);
+  const int y = within(window.centre_px.y() - window.radius_px, image.height);
+  const int x_end = within(window.centre_px.x() + window.radius_px + 2, image.width);
+  const int y_end = within(window.centre_px.y() + window.radius_px + 2, image.height);
+  Part<Grey> part{{x_end - x, y_end - y}, {x, y}};
+  for (int row = 0; row < part.image.height; ++row) {
+    std::copy_n(image.row(y + row) + x, part.image.width, part.image.row(row));
+  }
+  return part;
+}
+
+/// What several windows hold, each disc once.
+template <class Grey>
+FoundCandidates find_in_windows(const Raster<Grey>& image, Tone<Grey> tone,
+                                std::span<const SearchWindow> windows, const DetectionOptions& options) {
+  FoundCandidates all{{}, 0, 0};
+  for (const SearchWindow& window : windows) {
+    const Part<Grey> part = part_of(image, window);
+    const FoundCandidates found = find_candidates(part.image, tone, options);
+    all.step = std::gcd(static_cast<int>(all.step), static_cast<int>(found.step));
+    all.brightest = std::max(all.brightest, found.brightest);
+    for (Candidate candidate : found.candidates) {
+      candidate.ellipse.centre += part.origin;
+      const auto same = [&](const Candidate& other) {
+        return (other.ellipse.centre - candidate.ellipse.centre).norm() < other.ellipse.semi_minor;
+      };
+      if (std::none_of(all.candidates.begin(), all.candidates.end(), same))
+        all.candidates.push_back(candidate);
+    }
+  }
+  all.step = std::max(1.0, all.step);
+  return all;
+}
+
 }  // namespace
 
 std::vector<Centre> detect_targets(const Image& image, const DetectionOptions& options) {
   return std::visit(
-      [&]<class Grey>(const Raster<Grey>& raster) -> std::vector<Centre> {
-        if (raster.width < 3 || raster.height < 3) return {};
+      [&]<class Grey>(const Raster<Grey>& raster) {
         const auto tone = tone_of<Grey>(options);
-        const auto found = find_candidates(raster, tone, options);
-        return fit_all(raster, tone, found, options);
+        return fit_all(raster, tone, find_candidates(raster, tone, options), options);
       },
       image);
 }
@@ -158,37 +121,9 @@ std::vector<Centre> detect_targets(const Image& image, const DetectionOptions& o
 std::vector<Centre> detect_targets(const Image& image, std::span<const SearchWindow> windows,
                                    const DetectionOptions& options) {
   return std::visit(
-      [&]<class Grey>(const Raster<Grey>& raster) -> std::vector<Centre> {
-        if (raster.width < 3 || raster.height < 3) return {};
+      [&]<class Grey>(const Raster<Grey>& raster) {
         const auto tone = tone_of<Grey>(options);
-        FoundCandidates all{{}, 0, 0};
-        for (const SearchWindow& window : windows) {
-          const auto from = [](double at, int most) {
-            return std::clamp(static_cast<int>(std::floor(at)), 0, most);
-          };
-          const int x = from(window.centre_px.x() - window.radius_px, raster.width);
-          const int y = from(window.centre_px.y() - window.radius_px, raster.height);
-          const int x_end = from(window.centre_px.x() + window.radius_px + 2, raster.width);
-          const int y_end = from(window.centre_px.y() + window.radius_px + 2, raster.height);
-          if (x_end - x < 3 || y_end - y < 3) continue;
-          Raster<Grey> part(x_end - x, y_end - y);
-          for (int row = 0; row < part.height; ++row) {
-            std::copy_n(raster.row(y + row) + x, part.width, part.row(row));
-          }
-          const auto found = find_candidates(part, tone, options);
-          all.step = std::gcd(static_cast<int>(all.step), static_cast<int>(found.step));
-          all.brightest = std::max(all.brightest, found.brightest);
-          for (Candidate candidate : found.candidates) {
-            candidate.ellipse.centre += Vec2(x, y);
-            const auto same = [&](const Candidate& other) {
-              return (other.ellipse.centre - candidate.ellipse.centre).norm() < other.ellipse.semi_minor;
-            };
-            if (std::none_of(all.candidates.begin(), all.candidates.end(), same))
-              all.candidates.push_back(candidate);
-          }
-        }
-        all.step = std::max(1.0, all.step);
-        return fit_all(raster, tone, all, options);
+        return fit_all(raster, tone, find_in_windows(raster, tone, windows, options), options);
       },
       image);
 }
@@ -197,13 +132,14 @@ Result<Centre, FitFailure> fit_target(const Image& image, const Ellipse& start,
                                       const DetectionOptions& options) {
   return std::visit(
       [&]<class Grey>(const Raster<Grey>& raster) -> Result<Centre, FitFailure> {
-        if (raster.width < 3 || raster.height < 3) return because(FitFailure::OutsideImage);
         const auto tone = tone_of<Grey>(options);
-        const Fitting<Grey> fitting(raster, tone, grey_scale(raster, tone, start, kMargin), options);
-        const auto first = fitting.first(start);
-        if (!first) return because(first.error());
-        return fitting.final(*first, noise_model({first->scatter}, fitting.step()),
-                             blur_of_image({&*first, 1}, options));
+        const GreyScale scale = grey_scale(raster, tone, start);
+        auto target = first_fit(raster, tone, scale, start, options);
+        if (!target) return because(target.error());
+        const ImageTraits traits = traits_of({&*target, 1}, scale.step / scale.ceiling, options);
+        if (!refit(*target, traits, options)) return because(FitFailure::NotConverged);
+        if (!judge_outline(*target, traits)) return because(FitFailure::NotConverged);
+        return centre_of(*target, tone, scale);
       },
       image);
 }

@@ -140,11 +140,11 @@ EdgeModel model_of(const Patch& patch, const Ellipse& ellipse) {
   return model;
 }
 
-Result<EdgeFit, FitFailure> fit_edge(const Patch& patch, const EdgeModel& start, const EdgeNoise& noise,
-                                     const BlurPrior& blur, const FitLimits& limits) {
+Result<EdgeFit, FitFailure> fit_edge(const Patch& patch, const EdgeModel& start, const EdgeProfile& profile,
+                                     const EdgeNoise& noise, const BlurPrior& blur, const FitLimits& limits) {
   EdgeFit fit;
   fit.model = start;
-  NormalEquations equations = normal_equations(patch, fit.model, noise);
+  NormalEquations equations = normal_equations(patch, fit.model, profile, noise);
   System system(equations, fit.model, blur);
   double damping = 0;
   bool converged = false;
@@ -167,7 +167,7 @@ Result<EdgeFit, FitFailure> fit_edge(const Patch& patch, const EdgeModel& start,
       converged = true;
       break;
     }
-    const NormalEquations there = normal_equations(patch, next, noise);
+    const NormalEquations there = normal_equations(patch, next, profile, noise);
     const System at(there, next, blur);
     if (!(at.chi_square <= system.chi_square * (1 + 1e-4))) {
       damping = std::max(1e-2, damping * 10);

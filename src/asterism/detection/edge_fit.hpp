@@ -30,8 +30,8 @@ struct EdgeFit {
 
 /// Maximum-likelihood fit (Levenberg–Marquardt) of the model to the usable pixels, whose variance is `noise`.
 [[nodiscard]] Result<EdgeFit, FitFailure> fit_edge(const Patch& patch, const EdgeModel& start,
-                                                   const EdgeNoise& noise, const BlurPrior& blur,
-                                                   const FitLimits& limits = {});
+                                                   const EdgeProfile& profile, const EdgeNoise& noise,
+                                                   const BlurPrior& blur, const FitLimits& limits = {});
 
 /// The ellipse in image coordinates, and a model of an ellipse.
 [[nodiscard]] Ellipse ellipse_of(const Patch& patch, const EdgeModel& model);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "asterism/detection/lanes.hpp"
 
@@ -114,48 +115,44 @@ ASTERISM_INLINE float sum_of(Lanes v) {
 }
 
 /// Derivatives, weights and residuals of eight pixels.
+template <int kN>
 struct Rows {
-  Lanes j[EdgeModel::kParameters];
+  Lanes j[kN];
   Lanes weight, residual;
 };
 constexpr int kChunk = 32;
 
 /// The sums that grow from pixel to pixel.
+template <int kN>
 struct Totals {
-  Lanes matrix[NormalEquations::kUpper] = {};
-  Lanes right[EdgeModel::kParameters] = {};
+  Lanes matrix[NormalSums<kN>::kUpper] = {};
+  Lanes right[kN] = {};
   Lanes chi_square = {}, count = {};
 };
 
-/// Adds a chunk row of the matrix by row, so that its accumulators stay in registers.
-template <int kRow>
-ASTERISM_INLINE void add_row(const Rows* rows, int count, Totals& totals) {
-  constexpr int kN = EdgeModel::kParameters;
+/// Adds a chunk to one row of the matrix, whose sums stay in registers meanwhile.
+template <int kN, int kRow>
+ASTERISM_INLINE void add_row(const Rows<kN>* rows, int count, Totals<kN>& totals) {
   constexpr int kFirst = kRow * kN - kRow * (kRow - 1) / 2;
   Lanes sums[kN - kRow + 1];
-#pragma GCC unroll 8
+#pragma GCC unroll 12
   for (int b = 0; b < kN - kRow; ++b) sums[b] = totals.matrix[kFirst + b];
   sums[kN - kRow] = totals.right[kRow];
   for (int i = 0; i < count; ++i) {
     const Lanes weighted = rows[i].weight * rows[i].j[kRow];
-#pragma GCC unroll 8
+#pragma GCC unroll 12
     for (int b = 0; b < kN - kRow; ++b) sums[b] += weighted * rows[i].j[kRow + b];
     sums[kN - kRow] += weighted * rows[i].residual;
   }
-#pragma GCC unroll 8
+#pragma GCC unroll 12
   for (int b = 0; b < kN - kRow; ++b) totals.matrix[kFirst + b] = sums[b];
   totals.right[kRow] = sums[kN - kRow];
 }
 
-ASTERISM_INLINE void add_chunk(const Rows* rows, int count, Totals& totals) {
-  add_row<0>(rows, count, totals);
-  add_row<1>(rows, count, totals);
-  add_row<2>(rows, count, totals);
-  add_row<3>(rows, count, totals);
-  add_row<4>(rows, count, totals);
-  add_row<5>(rows, count, totals);
-  add_row<6>(rows, count, totals);
-  add_row<7>(rows, count, totals);
+template <int kN, int... kRow>
+ASTERISM_INLINE void add_chunk(const Rows<kN>* rows, int count, Totals<kN>& totals,
+                               std::integer_sequence<int, kRow...>) {
+  (add_row<kN, kRow>(rows, count, totals), ...);
 }
 
 /// Whether no pixel of the eight is near enough to the edge to feel it move.
@@ -164,16 +161,51 @@ ASTERISM_INLINE bool all_far(Lanes t) {
   return (far[0] & far[1] & far[2] & far[3]) == ~std::uint64_t{0};
 }
 
-ASTERISM_CLONES void accumulate(const Patch& patch, const EdgeModel& model, const EdgeNoise& noise,
-                                NormalEquations& result) {
-  constexpr int kN = EdgeModel::kParameters;
-  constexpr int kAa = 30, kAb = 31, kBb = 33;  // places of amplitude and background in the upper triangle
+/// The share of the disc in a pixel, and how it falls with t, for a profile that is not quite Gaussian.
+struct Step {
+  Lanes share, fall;
+  Lanes diagonal;      // 4c²s² of the edge's normal
+  Lanes third, fifth;  // φ He₃, φ He₅
+};
+
+struct ProfileConstants {
+  float fourth, fourth_diagonal, sixth, sixth_diagonal;
+
+  explicit ProfileConstants(const EdgeProfile& p)
+      : fourth(static_cast<float>(p.fourth)),
+        fourth_diagonal(static_cast<float>(p.fourth_diagonal)),
+        sixth(static_cast<float>(p.sixth)),
+        sixth_diagonal(static_cast<float>(p.sixth_diagonal)) {}
+};
+
+ASTERISM_INLINE Step step_at(const Place& p, const ProfileConstants& profile, Lanes t) {
+  const Normal n = normal(t);
+  const Lanes t2 = t * t;
+  const Lanes cs = p.qx * p.qy * p.inverse_slope * p.inverse_slope;
+  Step s;
+  s.diagonal = 4.0F * cs * cs;
+  s.third = n.density * t * (t2 - 3.0F);
+  s.fifth = n.density * t * (t2 * (t2 - 10.0F) + 15.0F);
+  const Lanes a = profile.fourth + profile.fourth_diagonal * s.diagonal;
+  const Lanes b = profile.sixth + profile.sixth_diagonal * s.diagonal;
+  s.share = n.tail + a * s.third + b * s.fifth;
+  s.fall =
+      n.density * (1.0F + a * (t2 * (t2 - 6.0F) + 3.0F) + b * (t2 * (t2 * (t2 - 15.0F) + 45.0F) - 15.0F));
+  return s;
+}
+
+template <int kN>
+ASTERISM_INLINE void accumulate(const Patch& patch, const EdgeModel& model, const EdgeProfile& edge_profile,
+                                const EdgeNoise& noise, NormalSums<kN>& result) {
+  // Places of amplitude and background in the upper triangle.
+  constexpr int kAa = 5 * kN - 10, kAb = kAa + 1, kBb = kAa + kN - 5;
   const Constants c(model);
+  const ProfileConstants profile(edge_profile);
   const auto background = static_cast<float>(model.background);
   const auto amplitude = static_cast<float>(model.amplitude);
   const auto v0 = static_cast<float>(noise.outside), v1 = static_cast<float>(noise.linear);
-  Totals totals;
-  Rows rows[kChunk];
+  Totals<kN> totals;
+  Rows<kN> rows[kChunk];
   int filled = 0;
   for (int row = 0; row < patch.rows; ++row) {
     const Lanes dy = Lanes{} + (static_cast<float>(row) - c.y);
@@ -183,14 +215,12 @@ ASTERISM_CLONES void accumulate(const Patch& patch, const EdgeModel& model, cons
       const Place p = place(c, kCount + (static_cast<float>(column) - c.x), dy);
       const Lanes t = p.distance * c.inverse_blur + 0.5F * c.blur * p.curvature;
       const Lanes usable = load(patch.usable.data() + at);
-      const Lanes uneven = patch.unevenness.empty() ? Lanes{} : load(patch.unevenness.data() + at);
-      const Lanes height = amplitude - uneven;
-      const Lanes over = load(patch.grey.data() + at) - background - uneven;
+      const Lanes over = load(patch.grey.data() + at) - background;
       totals.count += usable;
       if (all_far(t)) {
         const Lanes share = t < 0.0F ? Lanes{} + 1.0F : Lanes{};
         const Lanes weight = usable / (v0 + share * v1);
-        const Lanes residual = over - height * share;
+        const Lanes residual = over - amplitude * share;
         const Lanes weighted = weight * share;
         totals.matrix[kAa] += weighted;
         totals.matrix[kAb] += weighted;
@@ -200,12 +230,13 @@ ASTERISM_CLONES void accumulate(const Patch& patch, const EdgeModel& model, cons
         totals.chi_square += weight * residual * residual;
         continue;
       }
-      const Normal n = normal(t);
-      Rows& r = rows[filled];
-      r.residual = over - height * n.tail;
-      r.weight = usable / (v0 + n.tail * v1);
+      const Step s = step_at(p, profile, t);
+      Rows<kN>& r = rows[filled];
+      r.residual = over - amplitude * s.share;
+      const Lanes bounded = s.share < 0.0F ? Lanes{} : (s.share > 1.0F ? Lanes{} + 1.0F : s.share);
+      r.weight = usable / (v0 + bounded * v1);
       // How the grey level changes as the edge moves outwards, per px.
-      const Lanes steep = height * n.density * c.inverse_blur;
+      const Lanes steep = amplitude * s.fall * c.inverse_blur;
       const Lanes along = steep * p.inverse_slope;
       const Lanes by_shape = -along * p.inverse_radius;
       r.j[0] = along * p.qx;
@@ -213,23 +244,39 @@ ASTERISM_CLONES void accumulate(const Patch& patch, const EdgeModel& model, cons
       r.j[2] = by_shape * p.mx * p.dx;
       r.j[3] = by_shape * (p.mx * p.dy + p.my * p.dx);
       r.j[4] = by_shape * p.my * p.dy;
-      r.j[5] = n.tail;
+      r.j[5] = s.share;
       r.j[6] = Lanes{} + 1.0F;
       r.j[7] = steep * (p.distance * c.inverse_blur - 0.5F * c.blur * p.curvature);
+      if constexpr (kN > EdgeModel::kParameters) {
+        r.j[8] = amplitude * s.third;
+        r.j[9] = r.j[8] * s.diagonal;
+        r.j[10] = amplitude * s.fifth;
+        r.j[11] = r.j[10] * s.diagonal;
+      }
       totals.chi_square += r.weight * r.residual * r.residual;
       if (++filled == kChunk) {
-        add_chunk(rows, filled, totals);
+        add_chunk(rows, filled, totals, std::make_integer_sequence<int, kN>());
         filled = 0;
       }
     }
   }
-  add_chunk(rows, filled, totals);
-  for (int k = 0; k < NormalEquations::kUpper; ++k) {
+  add_chunk(rows, filled, totals, std::make_integer_sequence<int, kN>());
+  for (int k = 0; k < NormalSums<kN>::kUpper; ++k) {
     result.matrix[static_cast<std::size_t>(k)] = sum_of(totals.matrix[k]);
   }
   for (int a = 0; a < kN; ++a) result.right[static_cast<std::size_t>(a)] = sum_of(totals.right[a]);
   result.chi_square = sum_of(totals.chi_square);
   result.usable = sum_of(totals.count);
+}
+
+ASTERISM_CLONES void accumulate_8(const Patch& patch, const EdgeModel& model, const EdgeProfile& profile,
+                                  const EdgeNoise& noise, NormalSums<8>& result) {
+  accumulate(patch, model, profile, noise, result);
+}
+
+ASTERISM_CLONES void accumulate_12(const Patch& patch, const EdgeModel& model, const EdgeProfile& profile,
+                                   const EdgeNoise& noise, NormalSums<12>& result) {
+  accumulate(patch, model, profile, noise, result);
 }
 
 ASTERISM_CLONES void all_distances(const Patch& patch, const EdgeModel& model, float* distance) {
@@ -247,9 +294,17 @@ ASTERISM_CLONES void all_distances(const Patch& patch, const EdgeModel& model, f
 
 }  // namespace
 
-NormalEquations normal_equations(const Patch& patch, const EdgeModel& model, const EdgeNoise& noise) {
+NormalEquations normal_equations(const Patch& patch, const EdgeModel& model, const EdgeProfile& profile,
+                                 const EdgeNoise& noise) {
   NormalEquations result;
-  accumulate(patch, model, noise, result);
+  accumulate_8(patch, model, profile, noise, result);
+  return result;
+}
+
+ProfileEquations profile_equations(const Patch& patch, const EdgeModel& model, const EdgeProfile& profile,
+                                   const EdgeNoise& noise) {
+  ProfileEquations result;
+  accumulate_12(patch, model, profile, noise, result);
   return result;
 }
 

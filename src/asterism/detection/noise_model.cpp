@@ -22,7 +22,7 @@ Scatter scatter_of(const Patch& patch, const std::vector<float>& distance, const
   for_each_pixel(patch, [&](std::size_t i) {
     const float d = distance[i];
     if (patch.usable[i] == 0 || (d > -reach && d < reach)) return;
-    const double grey = patch.grey[i] - (d > 0 && !patch.unevenness.empty() ? patch.unevenness[i] : 0.0F);
+    const double grey = patch.grey[i];
     double* sums = d < 0 ? in : out;
     sums[0] += 1;
     sums[1] += grey;

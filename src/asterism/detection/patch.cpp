@@ -23,7 +23,8 @@ float median(std::vector<float>& values) {
   return *middle;
 }
 
-/// Of each row what lies within the ellipse grown by the margin, in groups of eight columns.
+}  // namespace
+
 void fill_spans(Patch& patch, const Ellipse& ellipse, double margin) {
   Ellipse grown = ellipse;
   grown.semi_major += margin;
@@ -40,8 +41,6 @@ void fill_spans(Patch& patch, const Ellipse& ellipse, double margin) {
     patch.spans[static_cast<std::size_t>(row)] = {begin, (end + 7) / 8 * 8};
   }
 }
-
-}  // namespace
 
 template <class Grey>
 GreyScale grey_scale(Tone<Grey> tone, double step, double brightest) {
@@ -91,8 +90,8 @@ template Patch cut_patch(const Raster8&, Tone<std::uint8_t>, const GreyScale&, c
 template Patch cut_patch(const Raster16&, Tone<std::uint16_t>, const GreyScale&, const Ellipse&, double);
 
 template <class Grey>
-GreyScale grey_scale(const Raster<Grey>& image, Tone<Grey> tone, const Ellipse& ellipse, double margin) {
-  const Patch patch = cut_patch(image, tone, {1, 1}, ellipse, margin);
+GreyScale grey_scale(const Raster<Grey>& image, Tone<Grey> tone, const Ellipse& ellipse) {
+  const Patch patch = cut_patch(image, tone, {1, 1}, ellipse, 5);
   unsigned first = 0, brightest = 0, divisor = 0;
   bool any = false;
   for_each_pixel(patch, [&](std::size_t i) {
@@ -106,8 +105,8 @@ GreyScale grey_scale(const Raster<Grey>& image, Tone<Grey> tone, const Ellipse& 
   return grey_scale<Grey>(tone, std::max(1U, divisor), brightest);
 }
 
-template GreyScale grey_scale(const Raster8&, Tone<std::uint8_t>, const Ellipse&, double);
-template GreyScale grey_scale(const Raster16&, Tone<std::uint16_t>, const Ellipse&, double);
+template GreyScale grey_scale(const Raster8&, Tone<std::uint8_t>, const Ellipse&);
+template GreyScale grey_scale(const Raster16&, Tone<std::uint16_t>, const Ellipse&);
 
 PatchContent look_at(const Patch& patch, const Ellipse& ellipse) {
   PatchContent content;

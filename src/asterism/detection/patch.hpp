@@ -21,14 +21,16 @@ template <class Grey>
 
 /// From the pixels around one target alone.
 template <class Grey>
-[[nodiscard]] GreyScale grey_scale(const Raster<Grey>& image, Tone<Grey> tone, const Ellipse& ellipse,
-                                   double margin);
+[[nodiscard]] GreyScale grey_scale(const Raster<Grey>& image, Tone<Grey> tone, const Ellipse& ellipse);
 
 /// Cuts out the ellipse and about `margin` px around it. Pixels beyond the image or at the ceiling are not
 /// usable.
 template <class Grey>
 [[nodiscard]] Patch cut_patch(const Raster<Grey>& image, Tone<Grey> tone, const GreyScale& scale,
                               const Ellipse& ellipse, double margin);
+
+/// Sets the spans: of each row what lies within the ellipse grown by the margin, in groups of eight columns.
+void fill_spans(Patch& patch, const Ellipse& ellipse, double margin);
 
 /// What lies in a patch besides its target.
 struct PatchContent {
