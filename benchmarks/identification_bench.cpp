@@ -196,6 +196,13 @@ int main(int count, char** arguments) {
        .stated = 0.5,
        .frames = few});
   add({.name = "500 ghosts", .scene = "three_bodies", .hidden = 2, .ghosts = 500, .frames = few / 10});
+  add({.name = "1400 ghosts",
+       .scene = "three_bodies",
+       .hidden = 2,
+       .ghosts = 1400,
+       .lateral_mm = 0.1,
+       .depth_mm = 0.5,
+       .frames = few / 100});
   add({.name = "ghosts only", .scene = "three_bodies", .hidden = 2, .frames = few, .absent = true});
   add({.name = "gh. depth 1",
        .scene = "three_bodies",

@@ -79,9 +79,9 @@ class PairDistanceTable {
 
 struct CliqueLimits {
   int min_size = 3;
-  std::size_t max_cliques = 256;
-  std::size_t max_nodes = 2048;
-  std::size_t max_steps = 50000;
+  std::size_t max_cliques = 512;
+  std::size_t max_nodes = 4096;
+  std::size_t max_work = 10'000'000;  // words of 64 correspondences looked at; some 10 ms
 };
 
 /// Sets of correspondences of which every two are compatible, none part of a larger one, each sorted.

@@ -50,9 +50,10 @@ class Enumeration {
 
  private:
   void expand(Bits candidates, Bits excluded, std::size_t depth) {
-    if (++steps_ > limits_.max_steps) cliques_.complete = false;
+    if (work_ > limits_.max_work) cliques_.complete = false;
     if (!cliques_.complete) return;
     const std::size_t words = graph_.words;
+    work_ += words;
     const int left = count_common(candidates, candidates, words);
     if (static_cast<int>(chosen_.size()) + left < limits_.min_size) return;
     if (left == 0) {
@@ -79,11 +80,12 @@ class Enumeration {
     });
   }
 
-  [[nodiscard]] std::size_t pivot(const Word* candidates, const Word* excluded) const {
+  [[nodiscard]] std::size_t pivot(const Word* candidates, const Word* excluded) {
     std::size_t best = 0;
     int most = -1;
     const auto consider = [&](std::size_t node) {
       const int common = count_common(candidates, graph_.row(node), graph_.words);
+      work_ += graph_.words;
       if (common <= most) return;
       most = common;
       best = node;
@@ -110,7 +112,7 @@ class Enumeration {
   Cliques cliques_;
   std::vector<std::size_t> chosen_;
   std::vector<std::vector<Word>> scratch_;
-  std::size_t steps_ = 0;
+  std::size_t work_ = 0;
 };
 
 /// How many partners each correspondence has once those with too few are gone; 0 for the dropped.

@@ -19,8 +19,6 @@ constexpr double kPoseVolume = 8.0 * std::numbers::pi * std::numbers::pi * 8e9; 
 // How often a prior is simply wrong (the body was knocked, or named wrongly before).
 constexpr double kPriorAstray = 0.01;
 constexpr std::size_t kMaxPairs = 400000;
-// Cliques a body beyond these are a sign of a pattern that is no single body.
-constexpr CliqueLimits kCliqueLimits{3, 128, 2048, 20000};
 
 double log_two_pi() { return std::log(2.0 * std::numbers::pi); }
 
@@ -157,6 +155,24 @@ Result<LabelFit, RigidFitFailure> fit_without_one(std::vector<Correspondence>& l
   return best;
 }
 
+/// Cliques of `fewest` correspondences or more; where these are too many to list, only larger ones.
+struct LargestCliques {
+  Cliques cliques;
+  std::size_t fewest;
+};
+
+LargestCliques largest_cliques(std::span<const CompatiblePair> pairs, std::size_t targets, std::size_t points,
+                               std::size_t fewest) {
+  Cliques cliques;
+  CliqueLimits limits;
+  for (; fewest <= targets; ++fewest) {
+    limits.min_size = static_cast<int>(fewest);
+    cliques = grow_cliques(pairs, targets, points, limits);
+    if (cliques.complete) break;
+  }
+  return {std::move(cliques), fewest};
+}
+
 void add(LabellingSearch& search, Labelling labelling) {
   const bool known =
       std::any_of(search.labellings.begin(), search.labellings.end(), [&](const Labelling& other) {
@@ -231,24 +247,22 @@ LabellingSearch find_labellings(const PointScene& scene, const BodyCatalogue& ca
     const std::size_t enough = std::min(targets.size(), static_cast<std::size_t>(options.min_targets));
     if (enough < 3) continue;
     bool near = false;
-    const auto grow = [&](std::span<const CompatiblePair> agreeing, int min_size, double min_gain) {
-      CliqueLimits limits = kCliqueLimits;
-      limits.min_size = min_size;
-      const Cliques cliques = grow_cliques(agreeing, targets.size(), scene.points.size(), limits);
+    const auto grow = [&](std::span<const CompatiblePair> agreeing, std::size_t least, double min_gain) {
+      const auto [cliques, fewest] = largest_cliques(agreeing, targets.size(), scene.points.size(), least);
       if (!cliques.complete) search.complete[body] = false;
       for (const auto& clique : cliques.found) {
-        auto labelling = labelling_of(static_cast<int>(body), clique, prior ? 3 : enough, scene, catalogue,
-                                      options, prior);
-        // Fewer labels could neither be reported nor be a rival worth the name: a point that completes
-        // the larger labelling by accident is rarer than what is taken for certain.
-        if (!labelling || (labelling->labels.size() < enough && !labelling->near_prior)) continue;
+        auto labelling =
+            labelling_of(static_cast<int>(body), clique, fewest, scene, catalogue, options, prior);
+        // Labellings with fewer labels were not all seen, nor are they rivals worth the name: a point that
+        // completes the larger one by accident is rarer than what is taken for certain.
+        if (!labelling) continue;
         if (labelling->prior_gain < min_gain) search.complete[body] = false;
         near = near || labelling->near_prior;
         add(search, std::move(*labelling));
       }
     };
     if (!pairs.complete) search.complete[body] = false;
-    grow(pairs.of_pattern[body], static_cast<int>(enough), 0);
+    grow(pairs.of_pattern[body], enough, 0);
     // Rivals far from the prior are not searched for here, so the prior alone must rule them out.
     if (prior && !near) grow(pairs_near(*prior, targets, scene, options), 3, options.decisive_chi_square);
   }
