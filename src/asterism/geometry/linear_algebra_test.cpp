@@ -36,6 +36,12 @@ TEST(SolvePositive, RefusesSingularIndefiniteAndNotANumber) {
   EXPECT_FALSE(inverse_positive(broken));
 }
 
+TEST(LogDeterminantPositive, AddsUpTheEigenvalues) {
+  const Mat6 a = positive_matrix();
+  EXPECT_NEAR(log_determinant_positive(a).value(), symmetric_eigenvalues(a).array().log().sum(), 1e-12);
+  EXPECT_FALSE(log_determinant_positive(Mat6(-a)));
+}
+
 TEST(SymmetricEigen, RebuildsItsMatrix) {
   Mat3 a;
   a << 4, 1, 0.5, 1, 3, -0.2, 0.5, -0.2, 2;
