@@ -5,15 +5,15 @@ export interface StatusWords {
   word: string;
   meaning: string;
   colour: string;  // a custom property of the style sheet
-  height: number;  // of its mark in the status strip: told by more than colour
+  height: number;  // of its mark in the status strip: told by more than colour, trouble tallest
 }
 
 export const kStatuses: Record<Status, StatusWords> = {
-  O: { word: 'OK', meaning: 'four or more targets seen by both cameras', colour: '--ok', height: 1 },
-  P: { word: 'PARTIAL', meaning: 'fewer than four seen by both, yet the pose is fully determined', colour: '--partial', height: 0.8 },
-  R: { word: 'PREDICTED', meaning: 'not measured in this frame; carried on by the filter', colour: '--predicted', height: 0.6 },
-  A: { word: 'AMBIGUOUS', meaning: 'another labelling of the targets fits as well; no pose is given', colour: '--ambiguous', height: 0.4 },
-  L: { word: 'LOST', meaning: 'not found; no pose is given', colour: '--lost', height: 0.2 },
+  O: { word: 'OK', meaning: 'four or more targets seen by both cameras', colour: '--ok', height: 0.35 },
+  P: { word: 'PARTIAL', meaning: 'fewer than four seen by both, yet the pose is fully determined', colour: '--partial', height: 0.55 },
+  R: { word: 'PREDICTED', meaning: 'not measured in this frame; carried on by the filter', colour: '--predicted', height: 0.7 },
+  A: { word: 'AMBIGUOUS', meaning: 'another labelling of the targets fits as well; no pose is given', colour: '--ambiguous', height: 0.85 },
+  L: { word: 'LOST', meaning: 'not found; no pose is given', colour: '--lost', height: 1 },
 };
 
 export function isMeasured(status: string): boolean {

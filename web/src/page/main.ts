@@ -25,10 +25,14 @@ function show(report: TrackingReport, root: HTMLElement): void {
   if (report.frames.frame.length > 0) {
     const work = workspace(report, shared);
     main.append(work.element);
-    const refresh = () => requestAnimationFrame(work.refresh);
-    for (const query of ['(prefers-color-scheme: dark)', 'print']) window.matchMedia(query).addEventListener('change', work.refresh);
-    window.addEventListener('beforeprint', work.refresh);
-    window.addEventListener('afterprint', refresh);
+    const print = () => {
+      work.refresh();
+      work.beforePrint();
+    };
+    window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', work.refresh);
+    window.matchMedia('print').addEventListener('change', (event) => (event.matches ? print() : work.refresh()));
+    window.addEventListener('beforeprint', print);
+    window.addEventListener('afterprint', () => requestAnimationFrame(work.refresh));
   }
   const errors = errorSection(report);
   if (errors) main.append(errors);

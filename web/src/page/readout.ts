@@ -30,7 +30,7 @@ function line(track: BodyTrack, index: number, shared: Shared): HTMLElement {
   const pick = h('button', { type: 'button', class: 'link body-name', style: `--key: var(${bodyColour(index)})`, 'aria-pressed': String(index === body), onclick: () => shared.set({ body: index }) }, track.name);
   const cells = row ? poseCells(row, track) : [h('td', { colspan: 6, class: 'none' }, 'no pose is given')];
   return h('tr', { class: index === body ? 'active' : '' }, h('th', { scope: 'row' }, pick), h('td', {}, statusBadge(status)),
-    h('td', { class: 'number' }, `${track.targets_used[frame]} of ${track.targets.length}`),
+    h('td', { class: 'number' }, `${track.targets_used[frame]}/${track.targets.length}`),
     h('td', { class: 'number' }, significant(track.rms_px[frame])), ...cells);
 }
 
@@ -39,7 +39,7 @@ function poseCells(row: number[], track: BodyTrack): HTMLElement[] {
   const place = apply(motion, track.point.position_mm);
   const turn = rotationVector(motion.rotation);
   const of = (values: number[], sigma: number[], places: number) => values.map((value, k) =>
-    h('td', { class: 'number' }, decimals(value, places), h('small', {}, ` ±${significant(kNormal95 * sigma[k], 2)}`)));
+    h('td', { class: 'number' }, decimals(value, places), h('small', {}, `±${significant(kNormal95 * sigma[k], 2)}`)));
   return [...of(place, sigmas(pointCovariance(row)), 3),
     ...of(turn.map((v) => v * kDegPerRad), sigmas(rotationCovariance(row)).map((v) => v * kDegPerRad), 4)];
 }

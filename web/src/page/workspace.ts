@@ -15,8 +15,14 @@ import { timeline } from './timeline';
 const kLayers: Layer[] = ['fields', 'trajectory', 'ellipsoids', 'sight lines', 'names'];
 const kViews: ViewPoint[] = ['cell', 'bodies', 'left camera', 'above', 'side'];
 
+export interface Workspace {
+  element: HTMLElement;
+  refresh: () => void;
+  beforePrint: () => void;
+}
+
 /// The 3-D view on the left, the linked plots on the right.
-export function workspace(report: TrackingReport, shared: Shared): { element: HTMLElement; refresh: () => void } {
+export function workspace(report: TrackingReport, shared: Shared): Workspace {
   const space = spacePanel(report, shared);
   const plots = plotPanel(report, shared);
   return {
@@ -25,10 +31,11 @@ export function workspace(report: TrackingReport, shared: Shared): { element: HT
       space.refresh();
       plots.refresh();
     },
+    beforePrint: () => space.still(),
   };
 }
 
-function spacePanel(report: TrackingReport, shared: Shared): { element: HTMLElement; refresh: () => void } {
+function spacePanel(report: TrackingReport, shared: Shared): { element: HTMLElement; refresh: () => void; still: () => void } {
   const scales = scalesOf(report);
   let scene: SceneView | null = null;
   try {
@@ -64,7 +71,7 @@ function spacePanel(report: TrackingReport, shared: Shared): { element: HTMLElem
       view.show(shared.now);
     });
   }
-  return { element, refresh: () => scene?.refresh() };
+  return { element, refresh: () => scene?.refresh(), still: () => scene?.still() };
 }
 
 /// What the marks mean and by how much they are exaggerated.
@@ -121,5 +128,5 @@ function plotControls(report: TrackingReport, shared: Shared): HTMLElement {
   const save = () => download('tracking.csv', new Blob([everythingAsCsv(report)], { type: 'text/csv' }));
   return h('div', { class: 'bar-row controls' },
     report.bodies.length > 1 && bodies.element, report.bodies.some((body) => body.filtered) && source.element, component.element, all,
-    h('span', { class: 'exports' }, h('button', { type: 'button', title: 'Save every frame, body and error', onclick: save }, 'all data as CSV')));
+    h('span', { class: 'exports' }, h('button', { type: 'button', title: 'Save every frame, body and error', onclick: save }, 'all as CSV')));
 }

@@ -43,7 +43,7 @@ export function plotView(figure: Figure, shared: Shared): PlotView {
     const { frame } = shared.now;
     const left = plot.valToPos(figure.axis.values[frame], 'x');
     marker.style.transform = `translateX(${left}px)`;
-    marker.style.display = left < 0 || left > plot.over.clientWidth ? 'none' : '';
+    marker.style.display = left < 0 || left > plot.bbox.width / (window.devicePixelRatio || 1) ? 'none' : '';
     for (const { trace, value } of values) value.textContent = valueAt(trace, frame, figure.digits);
     for (const { band, value } of bands) value.textContent = valueAt({ label: '', colour: '', form: 'line', values: band.high }, frame, 3);
   };
@@ -92,7 +92,7 @@ function optionsOf(figure: Figure, shared: Shared): uPlot.Options {
     scales: { x: { time: false }, y: { range: (_, low, high) => rangeOf(low, high, figure.fromZero) } },
     axes: [
       { ...axis, label: figure.axis.label, labelSize: 16, labelGap: 0, size: 26, gap: 3, values: (_, ticks) => ticks.map(tickText) },
-      { ...axis, label: figure.unit, labelSize: 16, labelGap: 0, size: kAxisWidth - 16, gap: 4, values: (_, ticks) => ticks.map(tickText) },
+      { ...axis, label: figure.unit, labelSize: 16, labelGap: 0, size: kAxisWidth - 16, gap: 4, ...(figure.digits === 0 ? { incrs: [1, 2, 5, 10, 20, 50] } : {}), values: (_, ticks) => ticks.map(tickText) },
     ],
     series: [
       {},

@@ -11,7 +11,7 @@ export function rigView(report: TrackingReport, scales: Scales, inks: Inks): { g
   const group = new THREE.Group();
   const fields = new THREE.Group();
   const labels: Label[] = [];
-  const near = 0.09 * scales.cell.radius;
+  const near = 0.1 * scales.radius;
   const edge = inks.line('--ink', 1.4);
   const faint = inks.line('--muted', 1, 0.35);
   const glass = inks.flat('--muted', 0.16);
@@ -59,9 +59,9 @@ function triad(length: number, inks: Inks, labels: Label[]): THREE.Group {
 }
 
 /// Horizontal for an upright tracker, below everything that was seen.
-function grid({ grid: { step, y }, cell }: Scales, inks: Inks): THREE.Object3D {
-  const reach = Math.ceil((cell.radius * 1.15) / step) * step;
-  const [cx, cz] = [Math.round(cell.centre[0] / step) * step, Math.round(cell.centre[2] / step) * step];
+function grid({ grid: { step, y }, middle, radius }: Scales, inks: Inks): THREE.Object3D {
+  const reach = Math.ceil((radius * 0.8) / step) * step;
+  const [cx, cz] = [Math.round(middle[0] / step) * step, Math.round((middle[2] * 0.62) / step) * step];
   const points: Vec3[] = [];
   for (let d = -reach; d <= reach + 1e-6; d += step) {
     points.push([cx + d, y, cz - reach], [cx + d, y, cz + reach], [cx - reach, y, cz + d], [cx + reach, y, cz + d]);

@@ -7,8 +7,9 @@ import { quantile } from '../data/statistics';
 
 /// How large things are and by how much the drawing exaggerates; all of it is stated under the view.
 export interface Scales {
-  cell: { centre: Vec3; radius: number };    // rig and bodies
-  bodies: { centre: Vec3; radius: number };  // the bodies alone, wherever they were
+  places: Vec3[];                            // where targets were, at about a hundred moments
+  middle: Vec3;                              // of those
+  radius: number;                            // of rig and bodies together, mm
   span: number;                              // of the largest body, mm
   right: Vec3;                               // the right camera's place in the tracker
   far: number;                               // depth to which the fields of view are drawn, mm
@@ -39,19 +40,19 @@ export function scalesOf(report: TrackingReport): Scales {
   span = span || bodies.radius;
   const largest = quantile(sizes, 0.5) ?? 0;
   return {
-    cell, bodies, span, right,
+    places, middle: bodies.centre, radius: cell.radius, span, right,
     far: Math.max(...places.map((p) => p[2])) * 1.08,
-    grid: { step: roundStep(cell.radius / 4), y: Math.max(...places.map((p) => p[1])) + 0.25 * span },
+    grid: { step: roundStep(cell.radius / 3), y: Math.max(...places.map((p) => p[1])) + 0.25 * span },
     discs: discScale(report, span),
-    ellipsoids: largest > 0 ? Math.max(1, roundStep((0.09 * span) / largest)) : 1,
+    ellipsoids: largest > 0 ? Math.max(1, roundStep((0.2 * span) / largest)) : 1,
   };
 }
 
-/// Targets of a few millimetres on a body of a metre would be specks: enlarged by 1, 2, 5 or 10.
+/// Targets of a few millimetres on a body of a metre would be specks: enlarged up to ten times.
 function discScale(report: TrackingReport, span: number): number {
   const diameters = report.bodies.flatMap((body) => body.targets.map((target) => target.diameter_mm ?? 0)).filter((d) => d > 0);
   const middle = quantile(diameters, 0.5);
-  return middle ? Math.min(10, Math.max(1, roundStep((0.045 * span) / middle))) : 1;
+  return middle ? Math.min(10, Math.max(1, Math.round((0.07 * span) / middle))) : 1;
 }
 
 function ball(points: Vec3[]): { centre: Vec3; radius: number } {

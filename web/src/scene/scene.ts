@@ -5,6 +5,7 @@ import { colour, h } from '../dom';
 import type { TrackingReport, Vec3 } from '../data/report';
 import type { Selection, Source } from '../data/selection';
 import { bodyView, sightLines } from './bodies';
+import { standingPoint } from './fit';
 import { Inks, segments } from './ink';
 import { drawLabels } from './labels';
 import { rigView } from './rig';
@@ -20,6 +21,7 @@ export interface SceneView {
   setLayer: (layer: Layer, visible: boolean) => void;
   look: (from: ViewPoint) => void;
   refresh: () => void;  // after a change of theme or size
+  still: () => void;    // before printing: browsers print no WebGL
   png: () => Promise<Blob | null>;
 }
 
@@ -29,10 +31,11 @@ const kFieldOfView = 32;
 export function sceneView(report: TrackingReport, scales: Scales, first: Selection): SceneView {
   const drawing = h('canvas', { role: 'img', tabindex: 0, 'aria-label': 'Three-dimensional view of the tracker, the bodies and their way. Drag turns, wheel zooms, right drag moves; the arrow keys step through the frames.' });
   const names = h('canvas', { class: 'names', 'aria-hidden': 'true' });
-  const element = h('div', { class: 'scene' }, drawing, names);
+  const printed = h('img', { class: 'printed', alt: 'Three-dimensional view of the tracker, the bodies and their way' });
+  const element = h('div', { class: 'scene' }, drawing, names, printed);
   const renderer = new THREE.WebGLRenderer({ canvas: drawing, antialias: true, alpha: true, preserveDrawingBuffer: true });
   const scene = new THREE.Scene();
-  const camera = new THREE.PerspectiveCamera(kFieldOfView, 1, scales.cell.radius / 500, scales.cell.radius * 30);
+  const camera = new THREE.PerspectiveCamera(kFieldOfView, 1, scales.radius / 300, scales.radius * 30);
   camera.up.set(0, -1, 0);
   const controls = new OrbitControls(camera, drawing);
   controls.zoomSpeed = 1.4;
@@ -108,6 +111,17 @@ export function sceneView(report: TrackingReport, scales: Scales, first: Selecti
     request();
   };
 
+  const composed = (): HTMLCanvasElement => {
+    draw();
+    const both = h('canvas', { width: drawing.width, height: drawing.height });
+    const context = both.getContext('2d')!;
+    context.fillStyle = colour('--panel');
+    context.fillRect(0, 0, both.width, both.height);
+    context.drawImage(drawing, 0, 0);
+    context.drawImage(names, 0, 0, both.width, both.height);
+    return both;
+  };
+
   controls.addEventListener('change', request);
   new ResizeObserver(refresh).observe(element);
   return {
@@ -116,28 +130,21 @@ export function sceneView(report: TrackingReport, scales: Scales, first: Selecti
       layers[layer] = visible;
       show(selection);
     },
-    png: () => new Promise((resolve) => {
-      draw();
-      const both = h('canvas', { width: drawing.width, height: drawing.height });
-      const context = both.getContext('2d')!;
-      context.fillStyle = colour('--panel');
-      context.fillRect(0, 0, both.width, both.height);
-      context.drawImage(drawing, 0, 0);
-      context.drawImage(names, 0, 0, both.width, both.height);
-      both.toBlob(resolve);
-    }),
+    still: () => {
+      printed.src = composed().toDataURL();
+    },
+    png: () => new Promise((resolve) => composed().toBlob(resolve)),
   };
 }
 
-/// Where to stand so that a ball fills the view.
+const kDirections: Record<Exclude<ViewPoint, 'left camera'>, Vec3> = {
+  cell: [-0.66, -0.5, -0.6], bodies: [-0.5, -0.42, -0.76], above: [0, -1, -1e-3], side: [-1, 0, 0],
+};
+
+/// Where to stand, and what to turn about, so that everything just fits into the view.
 export function viewPoint(from: ViewPoint, scales: Scales, aspect: number): { target: Vec3; position: Vec3 } {
-  const { centre, radius } = from === 'bodies' || from === 'left camera' ? scales.bodies : scales.cell;
-  if (from === 'left camera') return { target: [0, 0, centre[2]], position: [0, 0, 0] };
-  const directions: Record<Exclude<ViewPoint, 'left camera'>, Vec3> = {
-    cell: [-0.78, -0.46, -0.42], bodies: [-0.5, -0.42, -0.76], above: [0, -1, -1e-3], side: [-1, 0, 0],
-  };
-  const direction = directions[from];
-  const half = Math.atan(Math.tan((kFieldOfView * Math.PI) / 360) * Math.min(1, aspect));
-  const distance = (radius * 0.92) / Math.sin(half) / Math.hypot(...direction);
-  return { target: centre, position: [centre[0] + direction[0] * distance, centre[1] + direction[1] * distance, centre[2] + direction[2] * distance] };
+  if (from === 'left camera') return { target: [0, 0, scales.middle[2]], position: [0, 0, 0] };
+  const points = from === 'bodies' ? scales.places : [...scales.places, [0, 0, 0] as Vec3, scales.right];
+  const up = Math.tan((kFieldOfView * Math.PI) / 360);
+  return standingPoint(points, kDirections[from], 0.84 * up * aspect, 0.84 * up);
 }

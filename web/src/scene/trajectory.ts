@@ -11,7 +11,7 @@ export function trajectoryView(bodies: BodyTrack[], source: Source, scales: Scal
   const group = new THREE.Group();
   bodies.forEach((body, i) => {
     const { measured, predicted } = pathPieces(body, source);
-    if (measured.length > 0) group.add(segments(measured, inks.line(bodyColour(i), 1.5, 0.75)));
+    if (measured.length > 0) group.add(segments(measured, inks.line(bodyColour(i), 1.2, 0.55)));
     if (predicted.length > 0) group.add(segments(predicted, inks.line('--predicted-ink', 1.5, 0.9, 0.008 * scales.span)));
   });
   return group;

@@ -34,7 +34,7 @@ export function eventSection(report: TrackingReport, shared: Shared): HTMLElemen
     h('h2', { id: 'events' }, 'Events'),
     events.length === 0
       ? h('p', {}, 'Every body was OK in every frame.')
-      : h('div', { class: 'scroll tall', tabindex: 0, role: 'region', 'aria-label': 'Events' }, h('table', { class: 'data' },
+      : h('div', { class: 'scroll tall', tabindex: 0, role: 'region', 'aria-label': 'Events' }, h('table', { class: 'data narrow' },
         h('thead', {}, h('tr', {}, ...['From (s)', 'Frames', 'Count', 'Body', 'Status'].map((head, i) => h('th', { scope: 'col', class: i < 3 ? 'number' : '' }, head)))),
         h('tbody', {}, ...rows))),
     events.length > kShown && h('p', { class: 'note' }, `The first ${kShown} of ${count(events.length)}; all frames are in the CSV.`));
