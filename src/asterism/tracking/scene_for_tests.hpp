@@ -28,8 +28,8 @@ inline StereoRig rig(int coefficients = 0) {
 
 inline Body body() {
   Body b{"platform", {}};
-  const std::vector<Vec3> at = {{200, -100, 590}, {0, -300, 550}, {-200, -100, 590},
-                                {-150, 230, 600}, {0, 320, 640},  {160, 220, 600}};
+  const std::vector<Vec3> at = {{200, -100, 590}, {-100, 300, 610}, {-200, 100, 600},
+                                {0, -250, 605},   {210, 180, 580},  {-200, -240, 590}};
   for (std::size_t i = 0; i < at.size(); ++i) {
     Target target;
     target.id = "P" + std::to_string(i + 1);
@@ -41,15 +41,16 @@ inline Body body() {
   return b;
 }
 
-/// The body about 2.3 m before the cameras, its z axis towards them, turned up to `swing_deg` about each
-/// axis.
-inline RigidMotion pose(RandomStream& random, double swing_deg = 15) {
+/// The body `range_mm` before the cameras, its z axis towards them, turned up to `swing_deg` about each axis.
+inline RigidMotion pose(RandomStream& random, double swing_deg = 15, double range_mm = 2250) {
   const double s = rad_from_deg(swing_deg);
   const Quaternion towards = exp_rotation({std::numbers::pi, 0, 0}) * exp_rotation({0, 0.1, 0});
   const Quaternion turn =
       rotation_from_yaw_pitch_roll(random.uniform(-s, s), random.uniform(-s, s), random.uniform(-s, s));
   const Quaternion rotation = (towards * turn).normalized();
-  const Vec3 middle(330 + random.uniform(-50, 50), random.uniform(-50, 50), 2250 + random.uniform(-50, 50));
+  // Where both cameras look.
+  const Vec3 middle(500 - 0.15 * range_mm + random.uniform(-50, 50), random.uniform(-50, 50),
+                    range_mm + random.uniform(-50, 50));
   return {rotation, middle - rotation * Vec3(0, 0, 600)};
 }
 
