@@ -9,18 +9,17 @@ namespace {
 /// How far distortion moves the centre of a small ellipse with shape matrix S (normalised coordinates)
 /// beyond the image of its centre: (H_jk S_jk + 2 S_ik H^j_jk) / 8 with H the second derivatives of the
 /// distortion. The same for the centroid of the blob and for a fit to its edge.
-Vec2 shift_by_distortion(const Lens& lens, const Vec2& xy, const Mat2& shape) {
+/// `at` is the distortion at xy.
+Vec2 shift_by_distortion(const Lens& lens, const Vec2& xy, const DistortionResult& at, const Mat2& shape) {
   if (lens.coefficients == 0) return Vec2::Zero();
-  constexpr double kStep = 1e-4;
-  const Mat2 by_x =
-      (distort(lens, xy + Vec2(kStep, 0)).by_xy - distort(lens, xy - Vec2(kStep, 0)).by_xy) / (2 * kStep);
-  const Mat2 by_y =
-      (distort(lens, xy + Vec2(0, kStep)).by_xy - distort(lens, xy - Vec2(0, kStep)).by_xy) / (2 * kStep);
-  const Mat2 undo = distort(lens, xy).by_xy.inverse();
+  constexpr double kStep = 1e-5;  // the shift is some 0.01 px: one-sided differences give it to 1e-6 px
+  const Mat2 by_x = (distort(lens, xy + Vec2(kStep, 0)).by_xy - at.by_xy) / kStep;
+  const Mat2 by_y = (distort(lens, xy + Vec2(0, kStep)).by_xy - at.by_xy) / kStep;
+  const Mat2 undo = at.by_xy.inverse();
   // The ellipse lives in the distorted image, so H is read back through the local linear map.
   const Vec2 curvature = by_x * shape.col(0) + by_y * shape.col(1);
   const Vec2 divergence((undo * by_x).trace(), (undo * by_y).trace());
-  return (curvature + 2.0 * distort(lens, xy).by_xy * shape * divergence) / 8.0;
+  return (curvature + 2.0 * at.by_xy * shape * divergence) / 8.0;
 }
 
 Mat3 dual_conic(const Disc& disc) {
@@ -34,7 +33,7 @@ Result<Ellipse, LensFailure> through_lens(const Lens& lens, const Mat3& dual) {
   const DistortionResult at = distort(lens, undistorted->centre);
   const Mat2 map = pixel_by_normalised(lens) * at.by_xy;
   const Mat2 shape = shape_matrix(*undistorted);
-  const Vec2 centre = at.xy + shift_by_distortion(lens, undistorted->centre, shape);
+  const Vec2 centre = at.xy + shift_by_distortion(lens, undistorted->centre, at, shape);
   return ellipse_from_shape(pixel_from_normalised(lens, centre), map * shape * map.transpose());
 }
 
@@ -62,7 +61,7 @@ Result<DiscCentre, LensFailure> project_disc_centre(const Lens& lens, const Disc
   if (lens.coefficients > 0 && r2 > 0) {
     const Mat3 dual = dual_conic(disc) * inverse;
     const Mat2 shape = xy * xy.transpose() - dual.topLeftCorner<2, 2>();
-    centre += shift_by_distortion(lens, xy, shape);
+    centre += shift_by_distortion(lens, xy, at, shape);
   }
   const Mat2 map = pixel_by_normalised(lens) * at.by_xy;
   return DiscCentre{pixel_from_normalised(lens, centre), map * xy_by_centre, map * xy_by_normal};

@@ -20,6 +20,13 @@ constexpr double kImpossible = 1e-6;
 // Another minimum within this much χ² cannot be told from the first (odds of e^10).
 constexpr double kAsGood = 20.0;
 
+/// P(χ² > value) < p, for p ≤ 0.001; the common answer without the costly tail: the quantile of χ² lies above
+/// that of the normal variable of its mean and variance.
+bool less_likely(double chi_square, int degrees, double p) {
+  if (chi_square < degrees + 3.0 * std::sqrt(2.0 * degrees)) return false;
+  return chi_square_tail(chi_square, degrees) < p;
+}
+
 int degrees_of_freedom(const NormalEquations& equations) { return 2 * equations.views - 6; }
 
 /// Three targets, for else a motion is free; four views, for else nothing is left to contradict.
@@ -91,7 +98,7 @@ bool readmit(PoseProblem& problem, const PoseFit& fit, const PoseOptions& option
 
 bool suspicious(const NormalEquations& equations) {
   const int degrees = degrees_of_freedom(equations);
-  return degrees > 0 && chi_square_tail(equations.chi_square, degrees) < kSuspicious;
+  return degrees > 0 && less_likely(equations.chi_square, degrees, kSuspicious);
 }
 
 /// Rejects the targets that stand out, one by one; never more than a third of them, for a majority must
@@ -175,6 +182,8 @@ Remains what_remains(const PoseProblem& problem, const PoseFit& fit, const PoseO
   Remains remains;
   const double smallest_cosine = std::cos(rad_from_deg(options.max_incidence_deg));
   const double allowed = options.model_error_px * options.model_error_px;
+  // What fits without allowance fits with it.
+  const bool ask = suspicious(fit.equations);
   int used = 0;
   for (std::size_t i = 0; i < problem.size(); ++i) {
     if (!problem.used(i)) continue;
@@ -182,14 +191,15 @@ Remains what_remains(const PoseProblem& problem, const PoseFit& fit, const PoseO
     if (!at) continue;
     ++used;
     remains.rms_px += at->residual.squaredNorm();
+    remains.all_face = remains.all_face && at->facing > smallest_cosine;
+    remains.middle_in_body += problem.target(i).position;
+    if (!ask) continue;
     Mat2 loose = problem.weight(i).inverse() + allowed * Mat2::Identity();
     if (const auto& own = problem.target(i).covariance) {
       const Mat23 by = at->by_point * fit.pose.rotation.toRotationMatrix();
       loose += by * *own * by.transpose();
     }
     remains.loose_chi_square += at->residual.dot(loose.inverse() * at->residual);
-    remains.all_face = remains.all_face && at->facing > smallest_cosine;
-    remains.middle_in_body += problem.target(i).position;
   }
   remains.rms_px = std::sqrt(remains.rms_px / (2.0 * used));
   remains.middle_in_body /= used;
@@ -255,14 +265,14 @@ Result<PoseSolution, PoseFailure> estimate_pose(const Body& body, std::span<cons
     if (!problem.used(i)) solution.rejected.push_back(problem.given_index(i));
   }
   std::sort(solution.rejected.begin(), solution.rejected.end());
-  if (chi_square_tail(remains.loose_chi_square, solution.degrees_of_freedom) < kImpossible) {
+  if (less_likely(remains.loose_chi_square, solution.degrees_of_freedom, kImpossible)) {
     return because(PoseFailure::Inconsistent);
   }
 
   const RigShare of_rig = share_of_rig(problem, *fit, *covariance);
   const double expected = solution.degrees_of_freedom + of_rig.chi_square;
-  if (chi_square_tail(solution.chi_square * solution.degrees_of_freedom / expected,
-                      solution.degrees_of_freedom) < kSuspicious) {
+  if (less_likely(solution.chi_square * solution.degrees_of_freedom / expected, solution.degrees_of_freedom,
+                  kSuspicious)) {
     solution.variance_factor = std::max(1.0, solution.chi_square / expected);
   }
   solution.estimate.tracker_from_body = fit->pose;

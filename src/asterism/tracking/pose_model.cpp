@@ -149,8 +149,9 @@ int PoseProblem::targets_in_both() const {
 
 Result<PoseFit, PoseFailure> minimise(const PoseProblem& problem, const RigidMotion& start,
                                       int max_iterations) {
-  // χ² that a further step would gain at which the pose has settled: a thousandth of a sigma.
-  constexpr double kSettled = 1e-6;
+  // χ² that a step gains (a tenth of a sigma) below which it is the last: what remains after it is of second
+  // order.
+  constexpr double kSettled = 1e-2;
   PoseFit fit{start, {}};
   auto here = problem.at(start);
   if (!here) return because(PoseFailure::BehindCamera);
@@ -160,8 +161,12 @@ Result<PoseFit, PoseFailure> minimise(const PoseProblem& problem, const RigidMot
     damped.diagonal() *= 1.0 + damping;
     const auto step = solve_positive(damped, here->gradient);
     if (!step) return because(PoseFailure::NotDetermined);
-    if (damping < 1e-3 && step->dot(here->gradient) < kSettled) {
+    const double gain = step->dot(here->gradient);
+    if (damping == 0 && gain < kSettled) {
+      fit.pose = perturbed(fit.pose, *step);
       fit.equations = *here;
+      fit.equations.gradient.setZero();
+      fit.equations.chi_square -= gain;
       return fit;
     }
     const RigidMotion moved = perturbed(fit.pose, *step);
