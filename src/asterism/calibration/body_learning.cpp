@@ -249,6 +249,8 @@ void describe(BodyLearningOptions& options, OptionVisitor& visit) {
                "how far a centre may lie from where the learnt body expects it");
   visit.number("shape_error_px", options.shape_error_px, {0, 1},
                "error of an ellipse's semi-axes that its noise does not tell");
+  visit.number("least_margin_mm", options.least_margin_mm, {0, 100},
+               "wrong labels that fit better than this are warned of");
   visit.number("nominal_error_mm", options.nominal_error_mm, {0.01, 100},
                "how far nominal coordinates may be off");
 }
@@ -283,6 +285,9 @@ Result<LearntBody, NoBody> learn_body(const StereoRig& rig, std::span<const Obse
                            options.targets, nominal->name, options.nominal_error_mm)});
   }
   LearntBody learnt = report(rig, std::move(*adjusted), *frame, name, frames.size());
+  learnt.ambiguity = find_ambiguity(learnt.body, options.least_margin_mm);
+  const std::string advice = advice_against(learnt.ambiguity, learnt.body, options.least_margin_mm);
+  if (!advice.empty()) learnt.warnings.push_back(advice);
   learnt.warnings.insert(learnt.warnings.begin(), chosen->warnings.begin(), chosen->warnings.end());
   if (nominal) {
     learnt.warnings.push_back(fmt::format(

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "asterism/calibration/body_learning_ambiguity.hpp"
 #include "asterism/camera/stereo_rig.hpp"
 #include "asterism/cell/body.hpp"
 #include "asterism/core/options.hpp"
@@ -26,6 +27,7 @@ struct BodyLearningOptions {
   double least_motion_mm = 1.0;   // what moves less than this belongs to the background
   double view_gate_px = 1.5;      // how far a centre may lie from where the learnt body expects it
   double shape_error_px = 0.03;   // error of an ellipse's semi-axes that its noise does not tell
+  double least_margin_mm = 5.0;   // wrong labels that fit better than this are worth a warning
   double nominal_error_mm = 3.0;  // how far nominal coordinates may be off
 };
 void describe(BodyLearningOptions& options, OptionVisitor& visit);
@@ -66,6 +68,7 @@ struct LearntBody {
   double variance_factor = 1;  // χ² per degree of freedom: 1 when the centres' covariances are right
   double rotation_rad = 0;     // largest turn between two frames
   double translation_mm = 0;   // largest way of the body's origin between two frames
+  BodyAmbiguity ambiguity;
   std::vector<std::string> warnings;
 };
 
