@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "asterism/cell/cell.hpp"
+
+namespace asterism {
+
+/// A measuring cell from TOML (docs/formats.md has every key): [tracker] as a rig file, as a pair of like
+/// cameras or lens by lens; [[body]] with targets and motion; [[obstacle]]; [sensor], [light], [timing].
+/// Files named in it are sought beside it. Throws InputError, with file and line, for an unknown key (and
+/// the nearest name), a wrong type, a missing value; then check_cell.
+[[nodiscard]] Cell read_cell(const std::filesystem::path& file);
+
+/// As TOML that read_cell takes back to the same cell: all poses in the tracker's frame, lens by lens.
+void write_cell(const std::filesystem::path& file, const Cell& cell);
+
+/// Cells that come with the program, by name: "engine_casing".
+[[nodiscard]] std::vector<std::string> builtin_cells();
+
+/// A built-in cell by its name, else a file.
+[[nodiscard]] Cell cell_of(const std::string& name_or_file);
+
+}  // namespace asterism
