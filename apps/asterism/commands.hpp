@@ -21,5 +21,6 @@ struct Common;
 void add_detect(CLI::App& root, Common& common);
 void add_triangulate(CLI::App& root, Common& common);
 void add_evaluate(CLI::App& root, Common& common);
+void add_simulate(CLI::App& root, Common& common);
 
 }  // namespace asterism::app

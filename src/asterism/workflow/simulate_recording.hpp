@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "asterism/core/progress.hpp"
+#include "asterism/simulation/simulate.hpp"
+
+namespace asterism {
+
+struct SimulateJob {
+  std::filesystem::path out;  // the recording's folder
+  SimulationOptions options;
+};
+
+struct SimulatedRecording {
+  std::size_t frames = 0;
+  std::size_t lost = 0;            // images that a camera lost
+  std::size_t targets_seen = 0;    // in an image, at least 98 % visible
+  std::size_t targets_hidden = 0;  // less than that
+};
+
+/// Makes all frames of the cell and writes them as a recording with truth: rig.yaml, bodies.toml,
+/// frames.csv, left/ and right/ images or centres.csv, truth_poses.csv, truth_targets.csv, and the cell
+/// itself as cell.toml. frames.csv comes last: a folder that has it is whole. Throws InputError when the
+/// cell is not sound or the folder cannot be written.
+SimulatedRecording simulate_recording(const Cell& cell, const SimulateJob& job, const Progress& progress);
+
+}  // namespace asterism
