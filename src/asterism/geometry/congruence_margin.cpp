@@ -31,7 +31,14 @@ class Search {
         between_pattern_(distances_of(pattern)),
         used_(pattern.size()) {}
 
-  WrongLabellingSearch run() {
+  /// Narrows the cap to the best labelling found; the last one found is the best.
+  WrongLabellings best() {
+    narrowing_ = true;
+    extend(0.0);
+    return std::move(search_);
+  }
+
+  WrongLabellings all() {
     extend(0.0);
     return std::move(search_);
   }
@@ -85,8 +92,8 @@ class Search {
     for (const int label : label_) to.push_back(pattern_[static_cast<std::size_t>(label)]);
     const auto fit = fit_rigid_motion(points_, to);
     if (!fit || !(fit->rms < lowest_rms_)) return;
-    lowest_rms_ = fit->rms;
-    search_.best = {fit->rms, label_};
+    if (narrowing_) lowest_rms_ = fit->rms;
+    search_.found.push_back({fit->rms, label_});
   }
 
   std::span<const Vec3> points_, pattern_;
@@ -97,17 +104,32 @@ class Search {
   std::vector<int> label_;
   std::vector<bool> used_;
   std::size_t steps_ = 0;
-  WrongLabellingSearch search_;
+  bool narrowing_ = false;
+  WrongLabellings search_;
 };
+
+void check(std::span<const Vec3> points, std::span<const int> right) {
+  require(points.size() >= 3, "a labelling is judged by three points or more");
+  require(right.empty() || right.size() == points.size(), "the right labelling labels every point");
+}
 
 }  // namespace
 
 WrongLabellingSearch best_wrong_labelling(std::span<const Vec3> points, std::span<const Vec3> pattern,
                                           std::span<const int> right, double cap_mm, std::size_t max_steps) {
-  require(points.size() >= 3, "a labelling is judged by three points or more");
-  require(right.empty() || right.size() == points.size(), "the right labelling labels every point");
+  check(points, right);
   if (pattern.size() < points.size()) return {};
-  return Search(points, pattern, right, cap_mm, max_steps).run();
+  WrongLabellings search = Search(points, pattern, right, cap_mm, max_steps).best();
+  WrongLabellingSearch best{std::nullopt, search.complete};
+  if (!search.found.empty()) best.best = std::move(search.found.back());
+  return best;
+}
+
+WrongLabellings wrong_labellings_within(std::span<const Vec3> points, std::span<const Vec3> pattern,
+                                        std::span<const int> right, double cap_mm, std::size_t max_steps) {
+  check(points, right);
+  if (pattern.size() < points.size()) return {};
+  return Search(points, pattern, right, cap_mm, max_steps).all();
 }
 
 }  // namespace asterism

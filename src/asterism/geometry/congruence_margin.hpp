@@ -30,4 +30,15 @@ struct WrongLabellingSearch {
                                                         std::span<const int> right, double cap_mm,
                                                         std::size_t max_steps = 200000);
 
+struct WrongLabellings {
+  std::vector<WrongLabelling> found;
+  bool complete = true;  // false: `max_steps` was met; more may exist
+};
+
+/// All wrong labellings with an RMS below `cap_mm`, in the order of the search.
+[[nodiscard]] WrongLabellings wrong_labellings_within(std::span<const Vec3> points,
+                                                      std::span<const Vec3> pattern,
+                                                      std::span<const int> right, double cap_mm,
+                                                      std::size_t max_steps = 20000);
+
 }  // namespace asterism

@@ -2,8 +2,10 @@
 #include "asterism/tracking/identification.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "asterism/core/result.hpp"
+#include "asterism/geometry/congruence_margin.hpp"
 #include "asterism/tracking/identification_assignment.hpp"
 #include "asterism/tracking/identification_search.hpp"
 
@@ -16,25 +18,53 @@ std::vector<int> targets_of(std::span<const Correspondence> labels) {
   return targets;
 }
 
-/// Can this labelling be told from every wrong one by the layout alone, whatever this frame's noise happened
-/// to favour? The best wrong one is then expected `decisive` worse in χ².
-bool is_identifiable(const Labelling& labelling, double margin_mm, const PointScene& scene, double decisive) {
+/// The margin below which noise as large as this frame's could favour a wrong labelling: above it, the best
+/// wrong one is expected to be `decisive` worse in χ².
+double margin_needed(const Labelling& labelling, const PointScene& scene, double decisive) {
   double variance = 0;
   for (const auto& label : labelling.labels) {
     variance += scene.points[static_cast<std::size_t>(label.scene)].covariance.trace() / 3.0;
   }
   const auto count = static_cast<double>(labelling.labels.size());
   const double scale = std::max(1.0, labelling.fit.chi_square / (3.0 * count - 6.0));
-  return count * margin_mm * margin_mm > decisive * scale * variance / count;
+  return std::sqrt(decisive * scale * variance) / count;
+}
+
+/// Does the prior rule out every wrong labelling that the layout alone does not?
+bool is_settled_by_priors(const Labelling& labelling, double needed_mm, const PointScene& scene,
+                          const BodyCatalogue& catalogue, const IdentificationOptions& options,
+                          std::span<const std::optional<PriorPose>> priors) {
+  if (!labelling.near_prior || labelling.prior_gain < options.decisive_chi_square) return false;
+  const auto body = static_cast<std::size_t>(labelling.body);
+  const std::vector<int> right = targets_of(labelling.labels);
+  std::vector<Vec3> seen;
+  for (const int target : right)
+    seen.push_back(catalogue.targets(body)[static_cast<std::size_t>(target)].position);
+  for (std::size_t other = 0; other < catalogue.bodies().size(); ++other) {
+    std::vector<Vec3> pattern;
+    for (const auto& target : catalogue.targets(other)) pattern.push_back(target.position);
+    const auto wrong = wrong_labellings_within(
+        seen, pattern, other == body ? std::span<const int>(right) : std::span<const int>(), needed_mm);
+    if (!wrong.complete) return false;
+    for (const auto& rival : wrong.found) {
+      std::vector<Correspondence> labels = labelling.labels;
+      for (std::size_t i = 0; i < labels.size(); ++i) labels[i].pattern = rival.label[i];
+      const auto fit = fit_labels(labels, catalogue.targets(other), scene.points);
+      if (fit && prior_gain(*fit, priors[other]) > labelling.prior_gain - options.decisive_chi_square)
+        return false;
+    }
+  }
+  return true;
 }
 
 /// What is told of a choice; refitted when contested labels were left out.
 std::optional<BodyLabels> report(const Choice& choice, const LabellingSearch& search, const PointScene& scene,
                                  const BodyCatalogue& catalogue, const IdentificationOptions& options,
-                                 const std::optional<PriorPose>& prior) {
+                                 std::span<const std::optional<PriorPose>> priors) {
   const Labelling& whole = search.labellings[choice.labelling];
   if (!is_evident(whole, catalogue, options)) return std::nullopt;
   const auto body = static_cast<std::size_t>(whole.body);
+  const auto prior = priors.empty() ? std::optional<PriorPose>() : priors[body];
   BodyLabels told{whole.body, choice.status, {}, {}, 0, 0};
   if (!search.complete[body]) told.status = LabelStatus::Ambiguous;
 
@@ -52,8 +82,9 @@ std::optional<BodyLabels> report(const Choice& choice, const LabellingSearch& se
   told.tracker_from_body = kept.fit.tracker_from_body;
   told.rms_mm = kept.fit.rms_mm;
   told.margin_mm = catalogue.margin_mm(body, targets_of(kept.labels));
-  const bool placed = kept.near_prior && kept.prior_gain > options.decisive_chi_square;
-  if (!placed && !is_identifiable(kept, told.margin_mm, scene, options.decisive_chi_square)) {
+  const double needed_mm = margin_needed(kept, scene, options.decisive_chi_square);
+  if (told.status == LabelStatus::Ok && told.margin_mm < needed_mm &&
+      !is_settled_by_priors(kept, needed_mm, scene, catalogue, options, priors)) {
     told.status = LabelStatus::Ambiguous;
   }
   if (choice.rival_rms_mm && told.status == LabelStatus::Ambiguous) {
@@ -99,9 +130,7 @@ std::vector<BodyLabels> identify(std::span<const Point> points, const BodyCatalo
                       static_cast<std::size_t>(options.min_targets));
   std::vector<BodyLabels> found;
   for (const Choice& choice : choices) {
-    const auto body = static_cast<std::size_t>(search.labellings[choice.labelling].body);
-    const auto prior = priors.empty() ? std::optional<PriorPose>() : priors[body];
-    auto told = report(choice, search, scene, catalogue, options, prior);
+    auto told = report(choice, search, scene, catalogue, options, priors);
     if (told) found.push_back(std::move(*told));
   }
   return found;

@@ -85,17 +85,16 @@ void weigh(Labelling& labelling, const PointScene& scene, const BodyCatalogue& c
   const LabelFit& fit = labelling.fit;
   const PriorFit at = weigh_prior(fit, prior, options.fit_sigma);
   const double log_det = log_determinant_positive(fit.information).value_or(0.0);
+  const double density = density_beside(labelling, scene, catalogue.diameter_mm(body));
   // Each point's density under the labelling, over that of clutter; poses nearby are summed over.
-  labelling.cost =
-      fit.chi_square + fit.log_det_covariances +
-      static_cast<double>(labels) * (3.0 * log_two_pi() + 2.0 * std::log(scene.density_per_mm3)) + log_det -
-      6.0 * log_two_pi() + at.cost;
+  labelling.cost = fit.chi_square + fit.log_det_covariances +
+                   static_cast<double>(labels) * (3.0 * log_two_pi() + 2.0 * std::log(density)) + log_det -
+                   6.0 * log_two_pi() + at.cost;
   labelling.near_prior = at.near;
   labelling.prior_gain = at.gain;
 
   const std::size_t targets = catalogue.targets(body).size();
-  const Clutter clutter{static_cast<double>(scene.points.size()),
-                        density_beside(labelling, scene, catalogue.diameter_mm(body))};
+  const Clutter clutter{static_cast<double>(scene.points.size()), density};
   labelling.log_accidental = log_accidental_fits(fit, labels, targets, clutter);
   if (!at.near) return;
   labelling.log_accidental = std::min(
@@ -222,6 +221,10 @@ std::optional<Labelling> labelling_of(int body, std::vector<Correspondence> labe
     fit = fit_without_one(labels, targets, scene.points);
   }
   return std::nullopt;
+}
+
+double prior_gain(const LabelFit& fit, const std::optional<PriorPose>& prior) {
+  return weigh_prior(fit, prior, 1.0).gain;
 }
 
 bool is_evident(const Labelling& labelling, const BodyCatalogue& catalogue,

@@ -50,6 +50,10 @@ struct LabellingSearch {
                                                     const IdentificationOptions& options,
                                                     const std::optional<PriorPose>& prior);
 
+/// By how much more a prior expects this pose than one far from it, as −2 ln of the ratio; 0 without a prior
+/// or far from it.
+[[nodiscard]] double prior_gain(const LabelFit& fit, const std::optional<PriorPose>& prior);
+
 /// Enough targets, and more than chance would give.
 [[nodiscard]] bool is_evident(const Labelling& labelling, const BodyCatalogue& catalogue,
                               const IdentificationOptions& options);
