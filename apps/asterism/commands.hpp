@@ -22,5 +22,6 @@ void add_detect(CLI::App& root, Common& common);
 void add_triangulate(CLI::App& root, Common& common);
 void add_evaluate(CLI::App& root, Common& common);
 void add_simulate(CLI::App& root, Common& common);
+void add_body(CLI::App& root, Common& common);
 
 }  // namespace asterism::app
