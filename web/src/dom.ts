@@ -26,6 +26,15 @@ export function colour(property: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(property).trim() || '#888';
 }
 
+/// The same for drawings on white, which keep their colours in the dark.
+export function colourOnWhite(property: string): string {
+  const probe = h('span', { class: 'on-white', hidden: true });
+  document.body.append(probe);
+  const value = getComputedStyle(probe).getPropertyValue(property).trim();
+  probe.remove();
+  return value || '#888';
+}
+
 /// One of several, as a row of buttons of which one is pressed.
 export function choice<T extends string | number>(label: string, options: { value: T; text: string }[], now: T, choose: (value: T) => void): { element: HTMLElement; show: (value: T) => void } {
   const buttons = options.map(({ value, text }) => h('button', { type: 'button', onclick: () => choose(value) }, text));

@@ -11,6 +11,7 @@ import { csv, everythingAsCsv } from './csv';
 import { rotationErrors, summarise, translationErrors } from './errors';
 import { count, decimals, percent, roundStep, significant } from './format';
 import { parseReport, type MotionRow, type PoseRow, type TrackingReport } from './report';
+import { remarksOf } from './remarks';
 import { axisOf, nearestIndex, Shared, type Selection } from './selection';
 import { runs, share } from './status';
 import { summariseTarget } from './targets';
@@ -87,6 +88,15 @@ describe('status', () => {
     expect(first).toMatchObject({ frames: 2, both: 0.5, left: 0.5, right: 0, hidden: 0 });
     expect(first.leftResidual.rms).toBeCloseTo(Math.sqrt(0.0025 / 4), 12);
     expect(summariseTarget(body, body.sightings[1]).rightResidual.mean).toEqual([0, 0]);
+  });
+});
+
+describe('remarks', () => {
+  it('are those given, then those made from the statuses', () => {
+    const [partial, lost] = remarksOf(report());
+    expect(partial).toContain('was PARTIAL in 1 of 4 frames (25.0 %), in one stretch, the longest of 0.10 s: fewer than four');
+    expect(lost).toContain('was LOST in 2 of 4 frames (50.0 %)');
+    expect(remarksOf({ ...report(), remarks: ['said'] })[0]).toBe('said');
   });
 });
 

@@ -46,7 +46,7 @@ function spacePanel(report: TrackingReport, shared: Shared): { element: HTMLElem
   const toggles = kLayers.map((layer) => {
     const box = h('input', { type: 'checkbox', checked: layer !== 'sight lines' });
     box.addEventListener('change', () => scene?.setLayer(layer, box.checked));
-    return h('label', {}, box, layer);
+    return h('label', {}, box, layer === 'fields' ? 'fields of view' : layer);
   });
   const views = kViews.map((view) => h('button', { type: 'button', onclick: () => scene?.look(view) }, view));
   const save = h('button', { type: 'button', title: 'Save the view as an image', onclick: async () => {

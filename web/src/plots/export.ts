@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { csv } from '../data/csv';
-import { colour, download, h } from '../dom';
+import { colourOnWhite, download, h } from '../dom';
 import type { Figure } from './figures';
 import { svgOf } from './svg';
 
@@ -14,7 +14,7 @@ export function figureAsCsv(figure: Figure): string {
 /// CSV of what is plotted, and the figure as SVG or PNG on white.
 export function exportButtons(figure: Figure): HTMLElement {
   const button = (text: string, title: string, save: () => void) => h('button', { type: 'button', title, onclick: save }, text);
-  const svg = () => svgOf(figure, colour);
+  const svg = () => svgOf(figure, colourOnWhite);
   return h('span', { class: 'exports', role: 'group', 'aria-label': `Save ${figure.title}` },
     button('CSV', 'Save the plotted values', () => download(`${figure.id}.csv`, new Blob([figureAsCsv(figure)], { type: 'text/csv' }))),
     button('SVG', 'Save the figure as vector graphics', () => download(`${figure.id}.svg`, new Blob([svg()], { type: 'image/svg+xml' }))),

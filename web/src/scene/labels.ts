@@ -11,8 +11,15 @@ export interface Label {
   below?: boolean;
 }
 
+interface Box {
+  left: number;
+  right: number;
+  top: number;
+  bottom: number;
+}
+
 /// Writes the names over the drawing, in the page's font, with a halo of the ground so that lines do not
-/// run through the letters.
+/// run through the letters. A name that would cover an earlier one is left out; the bodies' come first.
 export function drawLabels(canvas: HTMLCanvasElement, labels: Label[], camera: THREE.Camera): void {
   const ratio = window.devicePixelRatio || 1;
   const context = canvas.getContext('2d')!;
@@ -23,13 +30,19 @@ export function drawLabels(canvas: HTMLCanvasElement, labels: Label[], camera: T
   context.lineWidth = 3;
   context.strokeStyle = colour('--panel');
   const place = new THREE.Vector3();
-  for (const label of labels) {
+  const written: Box[] = [];
+  for (const label of [...labels].sort((a, b) => Number(b.strong ?? false) - Number(a.strong ?? false))) {
     place.set(...label.at).project(camera);
     if (Math.abs(place.z) > 1 || Math.abs(place.x) > 1 || Math.abs(place.y) > 1) continue;
     const x = ((place.x + 1) / 2) * width + (label.below ? 0 : 7);
     const y = ((1 - place.y) / 2) * height + (label.below ? 22 : -6);
     context.font = `${label.strong ? '600 12px' : '11px'} system-ui, sans-serif`;
     context.textAlign = label.below ? 'center' : 'left';
+    const width_px = context.measureText(label.text).width;
+    const left = label.below ? x - width_px / 2 : x;
+    const box = { left, right: left + width_px, top: y - 10, bottom: y + 2 };
+    if (written.some((other) => box.left < other.right && other.left < box.right && box.top < other.bottom && other.top < box.bottom)) continue;
+    written.push(box);
     context.strokeText(label.text, x, y);
     context.fillStyle = colour(label.colour);
     context.fillText(label.text, x, y);

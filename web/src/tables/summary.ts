@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { h } from '../dom';
+import { remarksOf } from '../data/remarks';
 import type { TrackingReport } from '../data/report';
 
 const kVerdictWords = { plain: '', good: 'good', attention: 'look at this', bad: 'bad' } as const;
@@ -11,9 +12,10 @@ export function summarySection(report: TrackingReport): HTMLElement {
     h('td', { class: 'number' }, row.value),
     h('td', { class: 'unit' }, row.unit),
     h('td', {}, kVerdictWords[row.verdict] && h('span', { class: 'verdict' }, kVerdictWords[row.verdict]), row.note)));
-  const remarks = report.remarks.length > 0
-    ? h('ul', {}, ...report.remarks.map((remark) => h('li', {}, remark)))
-    : h('p', {}, 'Nothing was remarked.');
+  const words = remarksOf(report);
+  const remarks = words.length > 0
+    ? h('ul', {}, ...words.map((remark) => h('li', {}, remark)))
+    : h('p', {}, report.frames.frame.length > 0 ? 'Nothing: every body was OK in every frame.' : 'There are no frames.');
   return h('section', { 'aria-labelledby': 'summary', class: 'summary' },
     h('div', { class: 'panel' }, h('h2', { id: 'summary' }, 'Summary'),
       rows.length > 0 ? h('table', { class: 'summary-table' },
