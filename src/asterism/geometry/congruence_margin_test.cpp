@@ -124,6 +124,14 @@ TEST(BestWrongLabelling, SaysSoWhenItHasToStop) {
   EXPECT_FALSE(best_wrong_labelling(kTable1[0], kTable1[0], right, 1e9, 5).complete);
 }
 
+TEST(WrongLabellingsWithin, FindsAllThreeTurnsOfARectangle) {
+  const Layout rectangle = {{0, 0, 0}, {100, 0, 0}, {100, 60, 0}, {0, 60, 0}};
+  const auto wrong = wrong_labellings_within(rectangle, rectangle, std::vector<int>{0, 1, 2, 3}, 1.0);
+  EXPECT_TRUE(wrong.complete);
+  ASSERT_EQ(wrong.found.size(), 3U);
+  for (const auto& labelling : wrong.found) EXPECT_LT(labelling.rms_mm, 1e-6);
+}
+
 TEST(BestWrongLabelling, NeedsThreePoints) {
   EXPECT_THROW(best_wrong_labelling(std::span(kTable1[0]).first(2), kTable1[0], {}, 1e9), ContractViolation);
 }

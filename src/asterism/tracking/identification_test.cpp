@@ -4,94 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "asterism/core/parallel.hpp"
-#include "asterism/core/random.hpp"
 #include "asterism/core/result.hpp"
+#include "asterism/tracking/identification_scene_for_tests.hpp"
 
 namespace asterism {
 namespace {
 
-constexpr double kSigma = 0.05;
-
-Body body_of(const std::string& name, const std::vector<Vec3>& positions) {
-  Body body{name, {}};
-  for (const Vec3& position : positions) {
-    body.targets.push_back({"T" + std::to_string(body.targets.size() + 1), position, {}, {}, {}});
-  }
-  return body;
-}
-
-// Table 1 S3, S1 and Table 9 S4 (exactly symmetric) of Machines 2025, 13, 592; a probe; two small ones.
-const Body kPlatform = body_of("platform", {{200, -100, 590},
-                                            {-100, 300, 610},
-                                            {-200, 100, 600},
-                                            {0, -250, 605},
-                                            {210, 180, 580},
-                                            {-200, -240, 590}});
-const Body kNearlyTurned = body_of(
-    "nearly",
-    {{250, 0, 600}, {0, 300, 610}, {-250, 0, 590}, {0, -300, 605}, {220, 220, 580}, {-220, -220, 605}});
-const Body kSymmetric =
-    body_of("symmetric", {{220, 220, 580}, {220, -220, 590}, {-220, 220, 595}, {-220, -220, 605}});
-const Body kProbe = body_of("probe", {{0, 0, 0}, {61, 0, 10}, {12, 95, -20}, {-40, 50, 130}, {30, -70, 90}});
-const Body kTriangle = body_of("triangle", {{0, 0, 0}, {70, 0, 0}, {20, 50, 0}});
-const Body kRod = body_of("rod", {{0, 0, 0}, {50, 0, 0}, {105, 0, 0}, {190, 0, 0}});
-
-const RigidMotion kThere{exp_rotation(Vec3(0.3, -0.4, 1.1)), Vec3(120, -80, 2300)};
-const RigidMotion kElsewhere{exp_rotation(Vec3(-0.8, 1.2, 0.2)), Vec3(-500, 300, 2600)};
-
-/// What is seen of bodies, and what of it is true.
-struct Seen {
-  std::vector<Point> points;
-  std::vector<std::pair<int, int>> truth;  // body, target
-  RandomStream random{11, 0};
-
-  void add(const Vec3& place, std::pair<int, int> of = {-1, -1}) {
-    const Vec3 noise(random.normal(), random.normal(), random.normal());
-    points.push_back({place + kSigma * noise, kSigma * kSigma * Mat3::Identity(), 0, -1, -1});
-    truth.push_back(of);
-  }
-  void add(int index, const Body& body, const RigidMotion& tracker_from_body,
-           const std::vector<int>& targets) {
-    for (const int t : targets) {
-      add(tracker_from_body * body.targets[static_cast<std::size_t>(t)].position, {index, t});
-    }
-  }
-  void add_ghosts(int count) {
-    for (int i = 0; i < count; ++i) {
-      add(Vec3(random.uniform(-1000, 1000), random.uniform(-1000, 1000), random.uniform(1700, 3200)));
-    }
-  }
-};
-
-std::vector<int> all_targets(const Body& body) {
-  std::vector<int> targets(body.targets.size());
-  std::iota(targets.begin(), targets.end(), 0);
-  return targets;
-}
-
-testing::AssertionResult all_right(const BodyLabels& labels, const Seen& seen) {
-  for (const auto& label : labels.points) {
-    if (seen.truth[static_cast<std::size_t>(label.point)] == std::make_pair(labels.body, label.target))
-      continue;
-    return testing::AssertionFailure()
-           << "point " << label.point << " is not target " << label.target << " of body " << labels.body;
-  }
-  return testing::AssertionSuccess();
-}
-
-PriorPose prior_at(const RigidMotion& tracker_from_body, double sigma_rad, double sigma_mm) {
-  Vec6 variances;
-  variances << Vec3::Constant(sigma_rad * sigma_rad), Vec3::Constant(sigma_mm * sigma_mm);
-  return {tracker_from_body, variances.asDiagonal()};
-}
-
-std::vector<BodyLabels> identify(const Seen& seen, const std::vector<Body>& bodies,
-                                 const std::vector<std::optional<PriorPose>>& priors = {}) {
-  return identify(seen.points, BodyCatalogue(bodies), {}, priors);
-}
+using namespace identification_scene;
 
 TEST(Identify, FindsEachBodyAmongGhostsWithTargetsHidden) {
   Seen seen;
@@ -109,15 +30,6 @@ TEST(Identify, FindsEachBodyAmongGhostsWithTargetsHidden) {
     EXPECT_LT(found[i].rms_mm, 4 * kSigma);
   }
   EXPECT_LT((found[0].tracker_from_body * Vec3(0, 0, 600) - kThere * Vec3(0, 0, 600)).norm(), 0.3);
-}
-
-TEST(Identify, GivesTheLayoutsMarginForTheTargetsSeen) {
-  Seen seen;
-  seen.add(0, kNearlyTurned, kThere, all_targets(kNearlyTurned));
-  const auto found = identify(seen, {kNearlyTurned});
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].status, LabelStatus::Ok);
-  EXPECT_NEAR(found[0].margin_mm, 14.2, 0.05) << "the margin of S1 with all targets seen";
 }
 
 TEST(Identify, GivesTheSameLabelsWhereverTheSceneIs) {
@@ -163,68 +75,6 @@ TEST(Identify, RefusesAMirrorImage) {
   seen.add(0, kProbe, kThere, all_targets(kProbe));
   for (Point& point : seen.points) point.in_tracker.x() = -point.in_tracker.x();
   EXPECT_TRUE(identify(seen, {kProbe}).empty());
-}
-
-TEST(Identify, CallsALayoutThatFitsItselfTurnedAmbiguousWhateverTheNoiseFavours) {
-  for (std::uint64_t trial = 0; trial < 200; ++trial) {
-    Seen seen;
-    seen.random = RandomStream(12, trial);
-    seen.add(0, kSymmetric, kThere, all_targets(kSymmetric));
-    seen.add_ghosts(10);
-    const auto found = identify(seen, {kSymmetric});
-    ASSERT_EQ(found.size(), 1U);
-    EXPECT_EQ(found[0].status, LabelStatus::Ambiguous);
-    EXPECT_LT(found[0].margin_mm, 0.01);
-  }
-}
-
-TEST(Identify, CallsAPartlyHiddenLayoutAmbiguousWhenWhatIsLeftIsNearlySymmetric) {
-  for (std::uint64_t trial = 0; trial < 200; ++trial) {
-    Seen seen;
-    seen.random = RandomStream(13, trial);
-    seen.add(0, kNearlyTurned, kThere, {0, 1, 2, 3});
-    const auto found = identify(seen, {kNearlyTurned});
-    ASSERT_EQ(found.size(), 1U);
-    EXPECT_EQ(found[0].status, LabelStatus::Ambiguous);
-    EXPECT_NEAR(found[0].margin_mm, 0.198, 0.15) << "less what the noise gives to the rival";
-  }
-}
-
-TEST(Identify, SettlesAnAmbiguityByAPriorThatIsNear) {
-  Seen seen;
-  seen.add(0, kSymmetric, kThere, all_targets(kSymmetric));
-  Vec6 moved;
-  moved << 0.02, -0.01, 0.03, 2, -3, 1;
-  const auto prior = prior_at(perturbed(kThere, moved), 0.03, 5);
-  const auto found = identify(seen, {kSymmetric}, {prior});
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].status, LabelStatus::Ok);
-  EXPECT_TRUE(all_right(found[0], seen));
-}
-
-TEST(Identify, LeavesAnAmbiguityToAPriorThatIsFarOrVague) {
-  Seen seen;
-  seen.add(0, kSymmetric, kThere, all_targets(kSymmetric));
-  const auto vague = prior_at(kThere, 2.0, 500);
-  const RigidMotion turned = kThere * RigidMotion{exp_rotation(Vec3(0, 0, 1.4)), Vec3::Zero()};
-  for (const auto& prior : {vague, prior_at(turned, 0.03, 5)}) {
-    const auto found = identify(seen, {kSymmetric}, {prior});
-    ASSERT_EQ(found.size(), 1U);
-    EXPECT_EQ(found[0].status, LabelStatus::Ambiguous);
-  }
-}
-
-TEST(Identify, TakesThreeTargetsOnlyWithAPriorNear) {
-  Seen seen;
-  seen.add(0, kPlatform, kThere, {0, 1, 3});
-  seen.add_ghosts(30);
-  EXPECT_TRUE(identify(seen, {kPlatform}).empty());
-  EXPECT_TRUE(identify(seen, {kPlatform}, {prior_at(kElsewhere, 0.03, 5)}).empty());
-  const auto found = identify(seen, {kPlatform}, {prior_at(kThere, 0.03, 5)});
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].status, LabelStatus::Ok);
-  EXPECT_EQ(found[0].points.size(), 3U);
-  EXPECT_TRUE(all_right(found[0], seen));
 }
 
 TEST(Identify, NeverFindsABodyByTwoTargetsEvenWithAPrior) {
@@ -283,51 +133,6 @@ TEST(Identify, FindsNothingAmongGhosts) {
     seen.add_ghosts(80);
     EXPECT_TRUE(identify(seen.points, catalogue, {}).empty());
   }
-}
-
-TEST(Identify, CannotTellWhichOfTwinsItSees) {
-  Body twin = kPlatform;
-  twin.name = "twin";
-  Seen one;
-  one.add(0, kPlatform, kThere, all_targets(kPlatform));
-  const auto single = identify(one, {kPlatform, twin});
-  ASSERT_EQ(single.size(), 1U) << "points are given to one body only";
-  EXPECT_EQ(single[0].status, LabelStatus::Ambiguous);
-  EXPECT_LT(single[0].margin_mm, 1e-6);
-
-  one.add(1, twin, kElsewhere, all_targets(twin));
-  const auto both = identify(one, {kPlatform, twin});
-  ASSERT_EQ(both.size(), 2U);
-  for (const auto& labels : both) EXPECT_EQ(labels.status, LabelStatus::Ambiguous);
-
-  const auto settled =
-      identify(one, {kPlatform, twin}, {prior_at(kThere, 0.03, 5), prior_at(kElsewhere, 0.03, 5)});
-  ASSERT_EQ(settled.size(), 2U);
-  for (const auto& labels : settled) {
-    EXPECT_EQ(labels.status, LabelStatus::Ok);
-    EXPECT_TRUE(all_right(labels, one));
-  }
-}
-
-TEST(Identify, CallsABodySeenTwiceAmbiguous) {
-  Seen seen;
-  seen.add(0, kPlatform, kThere, all_targets(kPlatform));
-  seen.add(0, kPlatform, kElsewhere, all_targets(kPlatform));
-  const auto found = identify(seen, {kPlatform});
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].status, LabelStatus::Ambiguous);
-}
-
-TEST(Identify, LeavesOutATargetThatTwoPointsContest) {
-  Seen seen;
-  seen.add(0, kPlatform, kThere, all_targets(kPlatform));
-  seen.add(kThere * kPlatform.targets[2].position + Vec3(0.2, 0.1, -0.1));
-  const auto found = identify(seen, {kPlatform});
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].status, LabelStatus::Ok);
-  EXPECT_EQ(found[0].points.size(), 5U);
-  EXPECT_TRUE(all_right(found[0], seen));
-  for (const auto& label : found[0].points) EXPECT_NE(label.target, 2);
 }
 
 TEST(Identify, UsesEachPointAndEachCentreOnce) {
@@ -474,17 +279,6 @@ TEST(Identify, GivesTheSameBitsOnAnyNumberOfThreads) {
 }
 
 TEST(BodyCatalogue, RefusesWhatIsNoBody) { EXPECT_THROW(BodyCatalogue({kPlatform, kPlatform}), InputError); }
-
-TEST(BodyCatalogue, CountsOtherBodiesInTheMargin) {
-  Body near_twin = kProbe;
-  near_twin.name = "near twin";
-  near_twin.targets[3].position.z() += 3;
-  const double alone = BodyCatalogue({kProbe}).margin_mm(0, {0, 1, 2, 3, 4});
-  const double beside = BodyCatalogue({kProbe, near_twin}).margin_mm(0, {0, 1, 2, 3, 4});
-  EXPECT_GT(alone, 5);
-  EXPECT_LT(beside, 1.35) << "3 mm on one of five points: 3/√5 before the fit";
-  EXPECT_GT(beside, 0.5);
-}
 
 }  // namespace
 }  // namespace asterism
