@@ -22,21 +22,18 @@ void learn_profile(std::vector<TargetFit>& targets, ImageTraits& traits, const D
   constexpr double kUnexplained = 1.12;  // median reduced χ² of targets from which it is worth while
   constexpr std::uint32_t kOdd = kSaturated | kBorder | kTouching;
   for (int round = 0; round < 2; ++round) {
-    std::vector<double> chi_squares;
-    for (const TargetFit& target : targets) chi_squares.push_back(reduced_chi_square(target));
-    if (chi_squares.size() < kFewest) return;
-    const auto middle = chi_squares.begin() + static_cast<std::ptrdiff_t>(chi_squares.size() / 2);
-    std::nth_element(chi_squares.begin(), middle, chi_squares.end());
-    if (*middle < kUnexplained) return;
+    traits.usual_chi_square = median_chi_square(targets);
+    if (targets.size() < kFewest || traits.usual_chi_square < kUnexplained) return;
     std::vector<ProfileView> views;
     for (const TargetFit& target : targets) {
-      if ((target.flags & kOdd) != 0 || reduced_chi_square(target) > 2 * *middle) continue;
+      if ((target.flags & kOdd) != 0 || reduced_chi_square(target) > 2 * traits.usual_chi_square) continue;
       views.push_back({&target.patch, target.fit.model, target.noise, target.blur});
     }
     if (views.size() < kFewest) return;
     traits.profile = improved_profile(traits.profile, views);
     for (TargetFit& target : targets) static_cast<void>(refit(target, traits, options));
   }
+  traits.usual_chi_square = median_chi_square(targets);
 }
 
 template <class Grey>

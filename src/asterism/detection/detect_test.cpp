@@ -75,5 +75,127 @@ TEST(DetectTargets, FindsNothingWhereThereIsNothing) {
   EXPECT_TRUE(detect_targets(white, {}).empty());
 }
 
+TEST(DetectTargets, FindsAllOfTenThousandBlobs) {
+  Canvas canvas(1000, 1000, 20);
+  for (int i = 0; i < 10000; ++i)
+    add_disc(canvas, {{5.2 + 10 * (i % 100), 4.9 + 10 * (i / 100)}, 2.4, 2.1, 0.3}, 180, 0.5, 16);
+  RandomStream random(3, 0);
+  const auto centres = detect_targets(digitise(canvas, 2.0, random), {});
+  EXPECT_EQ(centres.size(), 10000U);
+}
+
+TEST(DetectTargets, SixteenBitsEqualEightBitsScaled) {
+  RandomStream random(4, 0), same(4, 0);
+  const Canvas canvas = canvas_of(nine_discs());
+  const Raster8 eight = digitise(canvas, 2.0, random);
+  Raster16 sixteen(eight.width, eight.height);
+  for (std::size_t i = 0; i < eight.pixels.size(); ++i)
+    sixteen.pixels[i] = static_cast<std::uint16_t>(257 * eight.pixels[i]);
+  const auto a = detect_targets(eight, {}), b = detect_targets(sixteen, {});
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_LT((a[i].px() - b[i].px()).norm(), 1e-4);  // floats round differently
+    EXPECT_NEAR(257 * a[i].amplitude, b[i].amplitude, 5);
+    EXPECT_LT((a[i].covariance - b[i].covariance).norm(), 1e-3 * a[i].covariance.norm());
+  }
+}
+
+TEST(DetectTargets, MovesWithTheImageByWholePixels) {
+  RandomStream random(5, 0);
+  const Raster8 image = digitise(canvas_of(nine_discs()), 2.0, random);
+  Raster8 larger(image.width + 64, image.height + 128);
+  std::fill(larger.pixels.begin(), larger.pixels.end(), 20);
+  for (int y = 0; y < image.height; ++y) std::copy_n(image.row(y), image.width, larger.row(y + 128) + 64);
+  const auto a = detect_targets(image, {}), b = detect_targets(larger, {});
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_LT((a[i].px() + Vec2(64, 128) - b[i].px()).norm(), 1e-3);
+}
+
+TEST(DetectTargets, GivesTheSameBitsTwice) {
+  RandomStream random(6, 0);
+  const Raster8 image = digitise(canvas_of(nine_discs()), 2.0, random);
+  const auto a = detect_targets(image, {}), b = detect_targets(image, {});
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].px(), b[i].px());
+    EXPECT_EQ(a[i].covariance, b[i].covariance);
+  }
+}
+
+TEST(DetectTargets, StatesAnHonestCovariance) {
+  const auto discs = nine_discs();
+  int inside = 0, all = 0;
+  for (std::uint64_t draw = 0; draw < 230; ++draw) {  // 2,070 errors
+    RandomStream random(7, draw);
+    const auto centres = detect_targets(digitise(canvas_of(discs), 2.0, random), {});
+    ASSERT_EQ(centres.size(), discs.size());
+    for (const Ellipse& disc : discs) {
+      const Centre& centre = nearest(centres, disc.centre);
+      const Vec2 error = centre.px() - disc.centre;
+      inside += error.dot(centre.covariance.inverse() * error) <= 5.991;
+      ++all;
+    }
+  }
+  EXPECT_NEAR(100.0 * inside / all, 95, 1.5);  // three standard deviations of the count
+}
+
+TEST(DetectTargets, WeighsShotNoiseAndStaysHonest) {
+  const auto discs = nine_discs();
+  int inside = 0, all = 0;
+  for (std::uint64_t draw = 0; draw < 120; ++draw) {
+    RandomStream random(8, draw);
+    Canvas canvas = canvas_of(discs, 4, 220);
+    for (double& level : canvas.levels) level += std::sqrt(0.03 + level / 41.0) * random.normal();
+    for (const Centre& centre : detect_targets(digitise(canvas, 0, random), {})) {
+      for (const Ellipse& disc : discs) {
+        const Vec2 error = centre.px() - disc.centre;
+        if (error.norm() > 1) continue;
+        inside += error.dot(centre.covariance.inverse() * error) <= 5.991;
+        ++all;
+      }
+    }
+  }
+  EXPECT_EQ(all, 120 * 9);
+  EXPECT_NEAR(100.0 * inside / all, 95, 2.5);
+}
+
+TEST(DetectTargets, FollowsUnevenLight) {
+  Canvas canvas = canvas_of(nine_discs(), 0, 60);
+  for (int y = 0; y < canvas.height; ++y) {
+    for (int x = 0; x < canvas.width; ++x) canvas.at(x, y) += 10 + 0.4 * x + 0.3 * y;
+  }
+  RandomStream random(9, 0);
+  const auto centres = detect_targets(digitise(canvas, 1.0, random), {});
+  EXPECT_EQ(centres.size(), 9U);
+}
+
+TEST(DetectTargets, LooksOnlyIntoWindows) {
+  RandomStream random(10, 0);
+  const auto discs = nine_discs();
+  const Raster8 image = digitise(canvas_of(discs), 1.0, random);
+  const std::vector<SearchWindow> windows = {
+      {discs[4].centre, 20}, {discs[4].centre + Vec2(4, 1), 20}, {{-500, 10}, 30}, {{105, 70}, 4}};
+  const auto centres = detect_targets(image, windows, {});
+  ASSERT_EQ(centres.size(), 1U);
+  EXPECT_LT((centres[0].px() - discs[4].centre).norm(), 0.02);
+}
+
+TEST(FitTarget, ReachesTheDiscFromAnOffStart) {
+  RandomStream random(11, 0);
+  const auto discs = nine_discs();
+  const Raster8 image = digitise(canvas_of(discs), 1.0, random);
+  const Ellipse start = disc_at(discs[8].centre.x() + 1.1, discs[8].centre.y() - 0.9, 7);
+  const auto centre = fit_target(image, start, {});
+  ASSERT_TRUE(centre);
+  EXPECT_LT((centre->px() - discs[8].centre).norm(), 0.015);
+}
+
+TEST(FitTarget, NamesTheReasonWhenThereIsNothingToFit) {
+  const Raster8 dark(200, 200);
+  EXPECT_EQ(fit_target(dark, disc_at(100, 100), {}).error(), FitFailure::NoContrast);
+  EXPECT_EQ(fit_target(dark, disc_at(-40, 100), {}).error(), FitFailure::OutsideImage);
+  EXPECT_EQ(fit_target(Raster8(), disc_at(3, 3), {}).error(), FitFailure::OutsideImage);
+}
+
 }  // namespace
 }  // namespace asterism

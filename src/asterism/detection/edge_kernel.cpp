@@ -178,8 +178,13 @@ struct ProfileConstants {
         sixth_diagonal(static_cast<float>(p.sixth_diagonal)) {}
 };
 
+template <bool kGaussian>
 ASTERISM_INLINE Step step_at(const Place& p, const ProfileConstants& profile, Lanes t) {
   const Normal n = normal(t);
+  if constexpr (kGaussian) {
+    const Lanes none = {};
+    return {n.tail, n.density, none, none, none};
+  }
   const Lanes t2 = t * t;
   const Lanes cs = p.qx * p.qy * p.inverse_slope * p.inverse_slope;
   Step s;
@@ -194,7 +199,7 @@ ASTERISM_INLINE Step step_at(const Place& p, const ProfileConstants& profile, La
   return s;
 }
 
-template <int kN>
+template <int kN, bool kGaussian>
 ASTERISM_INLINE void accumulate(const Patch& patch, const EdgeModel& model, const EdgeProfile& edge_profile,
                                 const EdgeNoise& noise, NormalSums<kN>& result) {
   // Places of amplitude and background in the upper triangle.
@@ -230,7 +235,7 @@ ASTERISM_INLINE void accumulate(const Patch& patch, const EdgeModel& model, cons
         totals.chi_square += weight * residual * residual;
         continue;
       }
-      const Step s = step_at(p, profile, t);
+      const Step s = step_at<kGaussian>(p, profile, t);
       Rows<kN>& r = rows[filled];
       r.residual = over - amplitude * s.share;
       const Lanes bounded = s.share < 0.0F ? Lanes{} : (s.share > 1.0F ? Lanes{} + 1.0F : s.share);
@@ -269,14 +274,19 @@ ASTERISM_INLINE void accumulate(const Patch& patch, const EdgeModel& model, cons
   result.usable = sum_of(totals.count);
 }
 
+ASTERISM_CLONES void accumulate_gaussian(const Patch& patch, const EdgeModel& model, const EdgeNoise& noise,
+                                         NormalSums<8>& result) {
+  accumulate<8, true>(patch, model, {}, noise, result);
+}
+
 ASTERISM_CLONES void accumulate_8(const Patch& patch, const EdgeModel& model, const EdgeProfile& profile,
                                   const EdgeNoise& noise, NormalSums<8>& result) {
-  accumulate(patch, model, profile, noise, result);
+  accumulate<8, false>(patch, model, profile, noise, result);
 }
 
 ASTERISM_CLONES void accumulate_12(const Patch& patch, const EdgeModel& model, const EdgeProfile& profile,
                                    const EdgeNoise& noise, NormalSums<12>& result) {
-  accumulate(patch, model, profile, noise, result);
+  accumulate<12, false>(patch, model, profile, noise, result);
 }
 
 ASTERISM_CLONES void all_distances(const Patch& patch, const EdgeModel& model, float* distance) {
@@ -297,7 +307,11 @@ ASTERISM_CLONES void all_distances(const Patch& patch, const EdgeModel& model, f
 NormalEquations normal_equations(const Patch& patch, const EdgeModel& model, const EdgeProfile& profile,
                                  const EdgeNoise& noise) {
   NormalEquations result;
-  accumulate_8(patch, model, profile, noise, result);
+  if (profile == EdgeProfile{}) {
+    accumulate_gaussian(patch, model, noise, result);
+  } else {
+    accumulate_8(patch, model, profile, noise, result);
+  }
   return result;
 }
 

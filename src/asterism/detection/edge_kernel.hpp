@@ -44,6 +44,7 @@ struct EdgeNoise {
 struct EdgeProfile {
   double fourth = 0, fourth_diagonal = 0, sixth = 0, sixth_diagonal = 0;
 
+  bool operator==(const EdgeProfile&) const = default;
   static constexpr int kParameters = 4;
 };
 

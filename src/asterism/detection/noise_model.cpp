@@ -2,6 +2,7 @@
 #include "asterism/detection/noise_model.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "asterism/detection/patch.hpp"
 
@@ -13,6 +14,33 @@ constexpr double kReach = 2.7;  // blurs from the edge within which its shape ma
 struct Sample {
   double level, variance, pixels;
 };
+
+/// Variance of normal noise of deviation `sigma` about `mean` once it is rounded to whole steps.
+double rounded_variance(double mean, double sigma) {
+  double moment = 0, square = 0;
+  const double first = std::floor(mean - 4 * sigma);
+  for (double k = first; k <= mean + 4 * sigma + 1; ++k) {
+    const double scale = std::numbers::sqrt2 * sigma;
+    const double share = 0.5 * (std::erf((k + 0.5 - mean) / scale) - std::erf((k - 0.5 - mean) / scale));
+    moment += share * (k - mean);
+    square += share * (k - mean) * (k - mean);
+  }
+  return square - moment * moment;
+}
+
+/// Noise smaller than half a step shows itself as hardly any variance where the level is near a whole step,
+/// as too much between two. This undoes it: the variance before rounding plus the 1/12 that rounding adds on
+/// slopes.
+double variance_with_rounding(double level, double variance, double pixels, double step) {
+  const double mean = level / step, measured = std::max(variance / (step * step), 0.5 / pixels);
+  if (measured > 0.4) return variance;
+  double low = 0.05, high = 0.7;
+  for (int i = 0; i < 20; ++i) {
+    const double sigma = 0.5 * (low + high);
+    (rounded_variance(mean, sigma) < measured ? low : high) = sigma;
+  }
+  return step * step * (low * low + 1.0 / 12);
+}
 
 }  // namespace
 
@@ -47,9 +75,13 @@ NoiseModel noise_model(const std::vector<Scatter>& scatters, double step) {
   std::vector<Sample> samples;
   for (const Scatter& s : scatters) {
     if (s.outside_pixels > 0)
-      samples.push_back({s.outside_level, s.outside_variance + model.floor * 0.1, s.outside_pixels});
+      samples.push_back({s.outside_level,
+                         variance_with_rounding(s.outside_level, s.outside_variance, s.outside_pixels, step),
+                         s.outside_pixels});
     if (s.inside_pixels > 0)
-      samples.push_back({s.inside_level, s.inside_variance + model.floor * 0.1, s.inside_pixels});
+      samples.push_back({s.inside_level,
+                         variance_with_rounding(s.inside_level, s.inside_variance, s.inside_pixels, step),
+                         s.inside_pixels});
   }
   if (samples.empty()) return {model.floor, 0, model.floor};
   double n = 0, sum = 0;

@@ -9,9 +9,8 @@ namespace asterism {
 namespace {
 
 constexpr std::size_t kSectors = 12;
-constexpr double kSuspicious = 1.4;     // reduced χ² from which the outline is looked at
 constexpr double kClearDeviations = 5;  // standard deviations by which a sector must lie off, and
-constexpr double kClearPx = 0.12;       // how far
+constexpr double kClearPx = 0.05;       // how far
 constexpr double kPartInflation = 4;    // of the covariance when only part of the outline is fitted
 
 /// Which twelfth of the outline a pixel belongs to, in the ellipse's own angle.
@@ -47,19 +46,23 @@ struct Outline {
   }
 };
 
-Outline outline_of(const TargetFit& target) {
+Outline outline_of(const TargetFit& target, const ImageTraits& traits) {
   const EdgeModel& m = target.fit.model;
   const std::vector<float> distance = distances(target.patch, m);
   std::array<double, kSectors> right{}, weight{};
+  const double determinant = m.m11 * m.m22 - m.m12 * m.m12;
   for_each_pixel(target.patch, [&](std::size_t i) {
-    const double t = distance[i] / m.blur;
-    if (target.patch.usable[i] == 0 || std::abs(t) > 3.5) return;
+    if (target.patch.usable[i] == 0 || std::abs(distance[i]) > 3.5 * m.blur) return;
+    const auto stride = static_cast<std::size_t>(target.patch.stride);
+    const double dx = static_cast<double>(i % stride) - m.x, dy = static_cast<double>(i / stride) - m.y;
+    const Vec2 u(m.m11 * dx + m.m12 * dy, m.m12 * dx + m.m22 * dy);
+    const Vec2 slope_there(m.m11 * u.x() + m.m12 * u.y(), m.m12 * u.x() + m.m22 * u.y());
+    const double curvature = determinant * determinant * std::pow(u.norm() / slope_there.norm(), 3);
+    const double t = distance[i] / m.blur + 0.5 * m.blur * curvature;
     const double share = 0.5 * std::erfc(t / std::numbers::sqrt2);
     const double slope = m.amplitude * std::exp(-0.5 * t * t) / (m.blur * std::sqrt(2 * std::numbers::pi));
     const double w = 1.0 / (target.noise.outside + share * target.noise.linear);
-    const auto row = static_cast<double>(i / static_cast<std::size_t>(target.patch.stride));
-    const auto column = static_cast<double>(i % static_cast<std::size_t>(target.patch.stride));
-    const std::size_t k = sector_of(m, column - m.x, row - m.y);
+    const std::size_t k = sector_of(m, dx, dy);
     right[k] += w * slope * (target.patch.grey[i] - m.background - m.amplitude * share);
     weight[k] += w * slope * slope;
   });
@@ -69,7 +72,7 @@ Outline outline_of(const TargetFit& target) {
     outline.seen[k] = weight[k] > 0.02 * most;
     if (!outline.seen[k]) continue;
     outline.offset[k] = right[k] / weight[k];
-    outline.deviation[k] = std::sqrt(1.0 / weight[k]);
+    outline.deviation[k] = std::sqrt(std::max(1.0, traits.usual_chi_square) / weight[k]);
   }
   return outline;
 }
@@ -94,8 +97,10 @@ std::optional<TargetFit> without(const TargetFit& target, const ImageTraits& tra
 }  // namespace
 
 bool judge_outline(TargetFit& target, const ImageTraits& traits) {
-  if (reduced_chi_square(target) < kSuspicious) return true;
-  const Outline whole = outline_of(target);
+  // Only what the other targets do not show as well, and what chance does not, is worth the look.
+  const double usual = std::max(1.0, traits.usual_chi_square);
+  if (reduced_chi_square(target) < usual * (1 + 4 * std::sqrt(2 / target.fit.pixels))) return true;
+  const Outline whole = outline_of(target, traits);
   if (whole.sound()) return true;
   target.flags |= kOccluded;
   std::optional<TargetFit> best;
@@ -103,7 +108,7 @@ bool judge_outline(TargetFit& target, const ImageTraits& traits) {
     for (std::size_t first = 0; first < kSectors; ++first) {
       auto part = without(target, traits, first, count);
       if (!part || (best && reduced_chi_square(*part) >= reduced_chi_square(*best))) continue;
-      if (outline_of(*part).sound()) best = std::move(part);
+      if (outline_of(*part, traits).sound()) best = std::move(part);
     }
     if (!best) continue;
     target.fit = best->fit;

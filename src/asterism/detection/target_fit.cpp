@@ -86,7 +86,7 @@ template Result<TargetFit, FitFailure> first_fit(const Raster16&, Tone<std::uint
 ImageTraits traits_of(std::span<const TargetFit> targets, double step, const DetectionOptions& options) {
   std::vector<Scatter> scatters;
   for (const TargetFit& target : targets) scatters.push_back(target.scatter);
-  return {noise_model(scatters, step), blur_of(targets, options), {}};
+  return {noise_model(scatters, step), blur_of(targets, options), {}, 1};
 }
 
 bool refit(TargetFit& target, const ImageTraits& traits, const DetectionOptions& options) {
@@ -105,6 +105,15 @@ bool refit(TargetFit& target, const ImageTraits& traits, const DetectionOptions&
 
 double reduced_chi_square(const TargetFit& target) {
   return target.fit.chi_square / std::max(1.0, target.fit.pixels - EdgeModel::kParameters);
+}
+
+double median_chi_square(std::span<const TargetFit> targets) {
+  std::vector<double> values;
+  for (const TargetFit& target : targets) values.push_back(reduced_chi_square(target));
+  if (values.empty()) return 1;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 template <class Grey>

@@ -25,6 +25,7 @@ struct ImageTraits {
   NoiseModel noise;
   double blur_px = 0.75;
   EdgeProfile profile;
+  double usual_chi_square = 1;  // median over targets of the reduced χ²
 };
 
 /// Fits all pixels alike: enough to learn the image's noise and blur.
@@ -40,8 +41,9 @@ template <class Grey>
 /// Fits with each pixel weighted by its noise, near the edge only; false when that does not come off.
 [[nodiscard]] bool refit(TargetFit& target, const ImageTraits& traits, const DetectionOptions& options);
 
-/// Pixels' squared residuals over their variance, on average.
+/// Pixels' squared residuals over their variance, on average; and the median of that over targets.
 [[nodiscard]] double reduced_chi_square(const TargetFit& target);
+[[nodiscard]] double median_chi_square(std::span<const TargetFit> targets);
 
 /// Holds the outline against the fitted ellipse, sector by sector. Where part of it lies elsewhere (something
 /// covers the disc) the ellipse is fitted to the rest and flagged; false when too little of it is an ellipse.
