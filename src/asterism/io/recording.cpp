@@ -129,9 +129,9 @@ std::optional<Image> read_frame_image(const Recording& recording, std::size_t in
   if (recording.rig) {
     const Lens& lens = recording.rig->lens(side);
     if (width_of(image) != lens.width_px || height_of(image) != lens.height_px) {
-      throw InputError((recording.folder / name).string(),
-                       fmt::format("is {} × {} px but the rig was calibrated at {} × {}", width_of(image),
-                                   height_of(image), lens.width_px, lens.height_px));
+      throw WrongImageSize((recording.folder / name).string(),
+                           fmt::format("is {} × {} px but the rig was calibrated at {} × {}", width_of(image),
+                                       height_of(image), lens.width_px, lens.height_px));
     }
   }
   return image;

@@ -8,6 +8,7 @@
 
 #include "asterism/camera/stereo_rig.hpp"
 #include "asterism/cell/body.hpp"
+#include "asterism/core/result.hpp"
 #include "asterism/measurement/frame.hpp"
 
 namespace asterism {
@@ -37,8 +38,14 @@ struct Recording {
 [[nodiscard]] Recording recording_of_images(const std::vector<std::filesystem::path>& left,
                                             const std::vector<std::filesystem::path>& right, double rate_hz);
 
-/// Reads both images of a frame. Throws InputError for one that is missing or cut off, or whose size is
-/// not the rig's.
+/// An image that the rig's cameras did not take.
+class WrongImageSize : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// Reads both images of a frame. Throws InputError for one that is missing or cut off, WrongImageSize for
+/// one whose size is not the rig's.
 [[nodiscard]] StereoImage read_frame(const Recording& recording, std::size_t index);
 
 /// One of them; empty when the camera lost the frame.
