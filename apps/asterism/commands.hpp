@@ -20,6 +20,8 @@ struct Common;
 //   }
 void add_detect(CLI::App& root, Common& common);
 void add_triangulate(CLI::App& root, Common& common);
+void add_identify(CLI::App& root, Common& common);
+void add_track(CLI::App& root, Common& common);
 void add_evaluate(CLI::App& root, Common& common);
 void add_simulate(CLI::App& root, Common& common);
 void add_body(CLI::App& root, Common& common);
