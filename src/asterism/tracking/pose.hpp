@@ -21,9 +21,7 @@ struct TargetView {
 };
 
 struct PoseOptions {
-  /// Added in quadrature to each view. What a fit to one image cannot see of its own error (fixed-pattern gain,
-  /// coarse grey steps, blur that is not quite round) came to this on rendered images of a real sensor's noise.
-  double sigma_floor_px = 0.0025;
+  double sigma_floor_px = 0.0005;     // added in quadrature to each view: no centre is better than this
   double model_error_px = 0.3;        // residuals that an imperfect rig or body may cause
   double outlier_probability = 1e-4;  // of rejecting a good target
   double max_sigma_deg = 1.0;
