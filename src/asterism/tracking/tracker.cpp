@@ -14,6 +14,8 @@ namespace {
 
 // Views found by a prediction alone were chosen to fit it; this much must be left over to contradict them.
 constexpr int kRedundancyOfPrediction = 4;
+// Of refusing a PARTIAL pose that fits as well as its body's poses usually do.
+constexpr double kUnusual = 1e-4;
 // A window larger than this finds no less by searching the whole image.
 constexpr double kLargestWindow_px = 200;
 
@@ -88,6 +90,8 @@ Tracker::Tracker(StereoRig rig, std::vector<Body> bodies, TrackerOptions options
   check_rig(rig_, "rig");
   for (std::size_t body = 0; body < catalogue_.bodies().size(); ++body)
     filters_.emplace_back(options_.filter);
+  misfit_.assign(filters_.size(), 0.0);
+  usual_misfit_ = misfit_;
 }
 
 TrackedFrame Tracker::process(const StereoImage& image) {
@@ -173,12 +177,29 @@ BodyPose Tracker::measure_body(std::size_t body, const TrackedFrame& frame, cons
       found || (solution->degrees_of_freedom >= kRedundancyOfPrediction &&
                 fits(solution->estimate, *predicted[body], options_.filter.gate_probability));
   if (!trusted) return {static_cast<int>(body), PoseStatus::Lost, {}, 0, 0};
-  return body_pose(body, *solution, views);
+  const BodyPose pose = body_pose(body, *solution, views);
+  if (pose.status == PoseStatus::Partial && !fits_as_usual(body, *solution)) {
+    ++failures_[static_cast<std::size_t>(PoseFailure::Inconsistent)];
+    return {static_cast<int>(body), PoseStatus::Lost, {}, 0, 0};
+  }
+  misfit_[body] = solution->chi_square / solution->degrees_of_freedom;
+  return pose;
+}
+
+/// Few targets leave little to contradict a wrong one. How well this rig and this body fit when all is well
+/// is known from the frames before; a PARTIAL pose must not fit much worse.
+bool Tracker::fits_as_usual(std::size_t body, const PoseSolution& solution) const {
+  if (usual_misfit_[body] == 0) return true;
+  const double scale = std::max(1.0, usual_misfit_[body]);
+  return solution.chi_square / scale < chi_square_quantile(1 - kUnusual, solution.degrees_of_freedom);
 }
 
 TrackedFrame Tracker::over_time(TrackedFrame frame) {
   for (std::size_t body = 0; body < filters_.size(); ++body) {
     frame.filtered.push_back(filters_[body].update(frame.centres.time_s, frame.poses[body]));
+    if (frame.poses[body].status != PoseStatus::Ok) continue;
+    double& usual = usual_misfit_[body];
+    usual = usual == 0 ? misfit_[body] : 0.9 * usual + 0.1 * misfit_[body];
   }
   last_frame_ = frame.centres.frame;
   last_time_s_ = frame.centres.time_s;

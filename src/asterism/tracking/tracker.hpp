@@ -57,6 +57,7 @@ class Tracker {
   [[nodiscard]] TrackedFrame measure(StereoCentres centres, const Predictions& predicted);
   [[nodiscard]] BodyPose measure_body(std::size_t body, const TrackedFrame& frame,
                                       const Predictions& predicted, CentreUse& use);
+  [[nodiscard]] bool fits_as_usual(std::size_t body, const PoseSolution& solution) const;
   [[nodiscard]] TrackedFrame over_time(TrackedFrame frame);
   void check_time(int frame, double time_s) const;
   void check_size(const StereoImage& image) const;
@@ -66,6 +67,7 @@ class Tracker {
   TrackerOptions options_;
   std::vector<PoseFilter> filters_;
   std::array<int, kPoseFailures> failures_{};
+  std::vector<double> misfit_, usual_misfit_;  // χ²/dof a body: of this frame, and as OK poses have had it
   std::optional<int> last_frame_;
   double last_time_s_ = 0;
   int since_full_search_ = 0;

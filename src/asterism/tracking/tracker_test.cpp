@@ -135,6 +135,26 @@ TEST(Tracker, LivesThroughACameraThatLostFrames) {
   EXPECT_EQ(partial, 4);
 }
 
+TEST(Tracker, TrustsFewTargetsOnlyWhenTheyFitAsWellAsUsual) {
+  const StereoRig rig = scene::rig();
+  for (const double wrong_px : {0.0, 0.25}) {
+    Tracker tracker(rig, {scene::body()});
+    for (int frame = 0; frame <= 10; ++frame) {
+      RandomStream random(91, static_cast<std::uint64_t>(frame));
+      StereoCentres centres{frame, 0.02 * frame, {}, {}};
+      const bool few = frame == 10;
+      add_centres(
+          centres, rig, scene::body(), sweep(frame), [&](int target, Side) { return !few || target < 3; },
+          random);
+      if (few) centres.left[1].ellipse.centre.x() += wrong_px;
+      const BodyPose pose = tracker.process(centres).poses[0];
+      if (few) {
+        EXPECT_EQ(pose.status == PoseStatus::Partial, wrong_px == 0.0) << wrong_px;
+      }
+    }
+  }
+}
+
 TEST(Tracker, TellsTwoBodiesApart) {
   const StereoRig rig = scene::rig();
   Body scanner{"scanner", {}};
