@@ -18,6 +18,7 @@ struct Common;
 //     const auto options = step_options<DetectionOptions>(*command);
 //     on_call(*command, common, [=, &common] { run(*call, options(), common); });
 //   }
+void add_demo(CLI::App& root, Common& common);
 void add_detect(CLI::App& root, Common& common);
 void add_triangulate(CLI::App& root, Common& common);
 void add_identify(CLI::App& root, Common& common);
