@@ -2,16 +2,8 @@
 #include "asterism/tracking/filter.hpp"
 
 #include "asterism/statistics/distributions.hpp"
-#include "asterism/tracking/motion_model.hpp"
 
 namespace asterism {
-
-/// The state after the last pose taken in, and what of its covariance does not average out.
-struct PoseFilter::Memory {
-  MotionState state;
-  Mat6 systematic;
-  bool fresh;  // one pose alone: the twist is not known yet
-};
 
 namespace {
 
@@ -24,25 +16,6 @@ PoseEstimate estimate_of(const MotionState& state, const Mat6& systematic) {
 }
 
 }  // namespace
-
-void describe(FilterOptions& options, OptionVisitor& visit) {
-  visit.number("rate_wander_deg_s", options.rate_wander_deg_s, {0, 1e6},
-               "by how much the turning rate changes in one second");
-  visit.number("speed_wander_mm_s", options.speed_wander_mm_s, {0, 1e7},
-               "by how much the speed changes in one second");
-  visit.number("initial_rate_deg_s", options.initial_rate_deg_s, {0, 1e6},
-               "turning rate a body may start with");
-  visit.number("initial_speed_mm_s", options.initial_speed_mm_s, {0, 1e7}, "speed a body may start with");
-  visit.number("gate_probability", options.gate_probability, {1e-12, 0.1},
-               "of refusing a pose that fits the motion");
-  visit.number("coast_max_s", options.coast_max_s, {0, 3600},
-               "how long a body that is not seen is carried on");
-}
-
-PoseFilter::PoseFilter(const FilterOptions& options) : options_(options) {}
-PoseFilter::~PoseFilter() = default;
-PoseFilter::PoseFilter(PoseFilter&&) noexcept = default;
-PoseFilter& PoseFilter::operator=(PoseFilter&&) noexcept = default;
 
 std::optional<PoseEstimate> PoseFilter::predict(double time_s) const {
   if (!memory_ || time_s - memory_->state.time_s > options_.coast_max_s) return std::nullopt;
@@ -62,8 +35,7 @@ BodyPose PoseFilter::update(double time_s, const BodyPose& measured) {
     const bool fits = update && update->nis < chi_square_quantile(1 - options_.gate_probability, 6);
     misfits_ = fits || !memory_ ? 0 : misfits_ + 1;
     if (!memory_ || misfits_ > 1) {
-      memory_ = std::make_unique<Memory>(
-          Memory{first_state(time_s, raw.tracker_from_body, noise, options_), raw.systematic, true});
+      memory_ = Memory{first_state(time_s, raw.tracker_from_body, noise, options_), raw.systematic, true};
       misfits_ = 0;
       return filtered;
     }

@@ -8,6 +8,20 @@
 
 namespace asterism {
 
+void describe(FilterOptions& options, OptionVisitor& visit) {
+  visit.number("rate_wander_deg_s", options.rate_wander_deg_s, {0, 1e6},
+               "by how much the turning rate changes in one second");
+  visit.number("speed_wander_mm_s", options.speed_wander_mm_s, {0, 1e7},
+               "by how much the speed changes in one second");
+  visit.number("initial_rate_deg_s", options.initial_rate_deg_s, {0, 1e6},
+               "turning rate a body may start with");
+  visit.number("initial_speed_mm_s", options.initial_speed_mm_s, {0, 1e7}, "speed a body may start with");
+  visit.number("gate_probability", options.gate_probability, {1e-12, 0.1},
+               "of refusing a pose that fits the motion");
+  visit.number("coast_max_s", options.coast_max_s, {0, 3600},
+               "how long a body that is not seen is carried on");
+}
+
 MotionState first_state(double time_s, const RigidMotion& measured, const Mat6& noise,
                         const FilterOptions& options) {
   MotionState state{time_s, measured, Vec6::Zero(), Mat12::Zero()};

@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "asterism/core/options.hpp"
 #include "asterism/measurement/pose.hpp"
-#include "asterism/tracking/filter.hpp"
 
 // How a body moves between frames; shared by the filter and the smoother.
 
 namespace asterism {
+
+struct FilterOptions {
+  double rate_wander_deg_s = 100;   // by how much the turning rate changes in one second (one sigma)
+  double speed_wander_mm_s = 1000;  // the same of the speed
+  double initial_rate_deg_s = 100;  // how fast a body may be turning when first seen
+  double initial_speed_mm_s = 1000;
+  double gate_probability = 1e-6;  // of refusing a pose that fits the motion
+  double coast_max_s = 0.5;        // how long a body that is not seen is carried on
+};
+void describe(FilterOptions& options, OptionVisitor& visit);
 
 using Vec12 = Eigen::Matrix<double, 12, 1>;
 using Mat12 = Eigen::Matrix<double, 12, 12>;

@@ -6,7 +6,6 @@
 #include "asterism/core/result.hpp"
 #include "asterism/geometry/linear_algebra.hpp"
 #include "asterism/statistics/distributions.hpp"
-#include "asterism/tracking/motion_model.hpp"
 
 namespace asterism {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "asterism/measurement/frame.hpp"
-#include "asterism/tracking/filter.hpp"
+#include "asterism/tracking/motion_model.hpp"
 
 namespace asterism {
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "asterism/core/result.hpp"
+#include "asterism/tracking/filter.hpp"
 #include "asterism/tracking/moving_body_for_tests.hpp"
 
 namespace asterism {
