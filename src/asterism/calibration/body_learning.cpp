@@ -28,6 +28,24 @@ BodyModel model_of(const RigidSet& set) {
   return model;
 }
 
+/// Of the sets those that may be meant: none that is another body, and where some are the nominal body only
+/// these.
+std::vector<RigidSet> candidates(std::vector<RigidSet> sets, const Body* nominal,
+                                 std::span<const Body> others, double error_mm) {
+  const auto is = [&](const RigidSet& set, const Body& body) {
+    return nominal_frame(model_of(set), body, error_mm).has_value();
+  };
+  const auto is_another = [&](const RigidSet& set) {
+    return std::any_of(others.begin(), others.end(), [&](const Body& other) { return is(set, other); });
+  };
+  if (!std::all_of(sets.begin(), sets.end(), is_another)) std::erase_if(sets, is_another);
+  const auto is_nominal = [&](const RigidSet& set) { return nominal && is(set, *nominal); };
+  if (std::any_of(sets.begin(), sets.end(), is_nominal)) {
+    std::erase_if(sets, [&](const RigidSet& set) { return !is_nominal(set); });
+  }
+  return sets;
+}
+
 struct Claim {
   double distance_px;
   std::size_t target, centre;
@@ -257,7 +275,7 @@ void describe(BodyLearningOptions& options, OptionVisitor& visit) {
 
 Result<LearntBody, NoBody> learn_body(const StereoRig& rig, std::span<const ObservedFrame> frames,
                                       const std::string& name, const BodyLearningOptions& options,
-                                      const Body* nominal) {
+                                      const Body* nominal, std::span<const Body> others) {
   if (options.targets < 3)
     throw InputError("a body needs 3 targets or more; how many are on it must be told");
   if (nominal && nominal->targets.size() != static_cast<std::size_t>(options.targets)) {
@@ -271,7 +289,8 @@ Result<LearntBody, NoBody> learn_body(const StereoRig& rig, std::span<const Obse
                            "poses",
                            frames.size(), kLeastFrames)});
   }
-  auto chosen = choose_set(find_rigid_sets(frames, options), frames, options);
+  const auto sets = candidates(find_rigid_sets(frames, options), nominal, others, options.nominal_error_mm);
+  auto chosen = choose_set(sets, frames, options);
   if (!chosen) return tl::unexpected(chosen.error());
   auto adjusted = adjust(rig, chosen->set, frames, options);
   if (!adjusted) return tl::unexpected(adjusted.error());

@@ -81,12 +81,12 @@ struct LearntBody {
 /// cameras, x towards the target farthest from the centroid in that plane: T1. The others follow
 /// counter-clockwise as the cameras see them. With `nominal` the frame and the ids are the nominal
 /// body's (least squares onto its coordinates).
+/// Of several bodies in motion `nominal` also tells which is meant; `others` are bodies known already,
+/// which are passed over.
 /// Covariances hold with the centroid and the mean rotation fixed (inner constraints); the rig's own
 /// covariance is carried in where it is known.
-[[nodiscard]] Result<LearntBody, NoBody> learn_body(const StereoRig& rig,
-                                                    std::span<const ObservedFrame> frames,
-                                                    const std::string& name,
-                                                    const BodyLearningOptions& options,
-                                                    const Body* nominal = nullptr);
+[[nodiscard]] Result<LearntBody, NoBody> learn_body(
+    const StereoRig& rig, std::span<const ObservedFrame> frames, const std::string& name,
+    const BodyLearningOptions& options, const Body* nominal = nullptr, std::span<const Body> others = {});
 
 }  // namespace asterism

@@ -86,10 +86,15 @@ Result<ChosenSet, NoBody> choose_set(const std::vector<RigidSet>& sets, std::spa
   if (sets.empty()) return tl::unexpected(nothing_found(frames, options));
   const auto told = static_cast<std::size_t>(options.targets);
   std::vector<ChosenSet> fitting;
+  std::vector<std::string> passed_over;
   for (const RigidSet& set : sets) {
     ChosenSet candidate{set, {}};
     const int dropped = drop_stragglers(candidate.set, told);
-    if (candidate.set.targets.size() != told) continue;
+    if (candidate.set.targets.size() != told) {
+      passed_over.push_back("passed over, since it has not as many targets as told: " +
+                            description(set, frames));
+      continue;
+    }
     if (dropped > 0) {
       candidate.warnings.push_back(fmt::format(
           "{} more points moved along with the body, each in a few frames only: left out", dropped));
@@ -125,6 +130,7 @@ Result<ChosenSet, NoBody> choose_set(const std::vector<RigidSet>& sets, std::spa
     best.warnings.push_back(
         fmt::format("{} frames could be read in two ways: left out", best.set.ambiguous_frames));
   }
+  best.warnings.insert(best.warnings.end(), passed_over.begin(), passed_over.end());
   return std::move(best);
 }
 

@@ -287,9 +287,18 @@ TEST(LearnBody, TellsTwoMovingBodiesApartByTheirNumberOfTargetsOrSaysThatItCanno
     if (other.targets.size() == 6) {
       ASSERT_FALSE(learnt);
       EXPECT_EQ(learnt.error().reason, BodyLearningFailure::SeveralBodies) << learnt.error().what;
+      const auto meant = learn_body(recording.rig, recording.frames, "probe", six_targets(), &probe);
+      ASSERT_TRUE(meant) << meant.error().what;
+      EXPECT_LT((meant->body.targets[1].position - probe.targets[1].position).norm(), 0.1);
+      const auto rest =
+          learn_body(recording.rig, recording.frames, "platform", six_targets(), nullptr, {&probe, 1});
+      ASSERT_TRUE(rest) << rest.error().what;
+      EXPECT_LT(distance_rms(rest->body, recording.truth, match(rest->body, recording.truth)), 0.02);
     } else {
       ASSERT_TRUE(learnt) << learnt.error().what;
       EXPECT_LT(distance_rms(learnt->body, recording.truth, match(learnt->body, recording.truth)), 0.02);
+      ASSERT_FALSE(learnt->warnings.empty());
+      EXPECT_NE(learnt->warnings.front().find("passed over"), std::string::npos) << learnt->warnings.front();
     }
   }
 }

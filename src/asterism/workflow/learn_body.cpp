@@ -72,7 +72,9 @@ LearntBody learn_body_of(const Recording& recording, const std::string& name, co
                          const Body* nominal, const Progress& progress) {
   const ObservedRecording observed = observe_recording(recording, options, progress);
   progress("learning the body", 0, 1);
-  auto learnt = learn_body(*recording.rig, observed.frames, name, options.learning, nominal);
+  std::vector<Body> others = recording.bodies.value_or(std::vector<Body>{});
+  std::erase_if(others, [&](const Body& body) { return body.name == name; });
+  auto learnt = learn_body(*recording.rig, observed.frames, name, options.learning, nominal, others);
   if (!learnt) throw MeasurementError(learnt.error().what);
   progress("learning the body", 1, 1);
   learnt->frames_given = static_cast<int>(recording.frames.size());

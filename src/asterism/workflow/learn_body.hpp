@@ -30,7 +30,8 @@ struct ObservedRecording {
 [[nodiscard]] ObservedRecording observe_recording(const Recording& recording, const BodyJobOptions& options,
                                                   const Progress& progress);
 
-/// The body that moves in a recording. Throws MeasurementError, with the reason, when there is none.
+/// The body that moves in a recording. The recording's own bodies of other names are known and passed over.
+/// Throws MeasurementError, with the reason, when there is none.
 [[nodiscard]] LearntBody learn_body_of(const Recording& recording, const std::string& name,
                                        const BodyJobOptions& options, const Body* nominal,
                                        const Progress& progress);
