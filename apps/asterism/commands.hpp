@@ -19,6 +19,8 @@ struct Common;
 //     on_call(*command, common, [=, &common] { run(*call, options(), common); });
 //   }
 void add_demo(CLI::App& root, Common& common);
+void add_calibrate(CLI::App& root, Common& common);
+void add_check_rig(CLI::App& root, Common& common);
 void add_detect(CLI::App& root, Common& common);
 void add_triangulate(CLI::App& root, Common& common);
 void add_identify(CLI::App& root, Common& common);

@@ -23,8 +23,9 @@ constexpr int kStopped = 130;  // as shells tell of Ctrl-C
 using AddCommand = void (*)(CLI::App&, Common&);
 
 /// In the order of `asterism --help`.
-const std::vector<AddCommand> kCommands = {add_demo,     add_body,  add_detect,   add_triangulate,
-                                           add_identify, add_track, add_evaluate, add_simulate};
+const std::vector<AddCommand> kCommands = {add_demo,     add_calibrate,   add_check_rig, add_body,
+                                           add_detect,   add_triangulate, add_identify,  add_track,
+                                           add_evaluate, add_simulate};
 
 const CLI::App* called_command(const CLI::App& root) {
   const std::vector<const CLI::App*> called =
