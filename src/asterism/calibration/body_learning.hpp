@@ -38,6 +38,7 @@ enum class BodyLearningFailure {
   TooFewTargets,
   TooManyTargets,
   SeveralBodies,
+  KnownBody,
   Ambiguous,
   NotTheNominalBody
 };
@@ -82,7 +83,7 @@ struct LearntBody {
 /// counter-clockwise as the cameras see them. With `nominal` the frame and the ids are the nominal
 /// body's (least squares onto its coordinates).
 /// Of several bodies in motion `nominal` also tells which is meant; `others` are bodies known already,
-/// which are passed over.
+/// which are passed over, and refused by name where nothing else moves.
 /// Covariances hold with the centroid and the mean rotation fixed (inner constraints); the rig's own
 /// covariance is carried in where it is known.
 [[nodiscard]] Result<LearntBody, NoBody> learn_body(

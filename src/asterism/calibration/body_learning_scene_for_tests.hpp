@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "asterism/calibration/body_learning.hpp"
@@ -123,6 +125,53 @@ inline double distance_rms(const Body& learnt, const Body& truth,
     }
   }
   return std::sqrt(sum / pairs);
+}
+
+inline constexpr double kTurn_rad = 0.26;  // 15°
+
+/// A body in motion, and the truth.
+struct SeenBody {
+  StereoRig rig = converging_rig();
+  Body truth = six_target_body();
+  std::vector<ObservedFrame> frames;
+  std::vector<RigidMotion> poses;
+};
+
+inline SeenBody record(int frames, std::uint64_t seed, const SceneOptions& scene = {},
+                       double turn_rad = kTurn_rad, const Body& background = {}) {
+  SeenBody recording;
+  for (int f = 0; f < frames; ++f) {
+    RandomStream random(seed, static_cast<std::uint64_t>(f));
+    StereoCentres centres{f, 0.1 * f, {}, {}};
+    recording.poses.push_back(pose_near(random, turn_rad));
+    SceneOptions seen = scene;
+    seen.hidden = 0;
+    add_body(centres, recording.rig, background, RigidMotion{}, seen, random);
+    add_body(centres, recording.rig, recording.truth, recording.poses.back(), scene, random);
+    recording.frames.push_back(observed(std::move(centres), recording.rig, scene));
+  }
+  return recording;
+}
+
+inline BodyLearningOptions six_targets() {
+  BodyLearningOptions options;
+  options.targets = 6;
+  return options;
+}
+
+/// Which true target each learnt one is, by laying one body on the other in the best of all orders.
+inline std::vector<std::size_t> match(const Body& learnt, const Body& truth) {
+  std::vector<std::size_t> order(truth.targets.size()), best;
+  std::iota(order.begin(), order.end(), 0);
+  double least = 1e9;
+  do {
+    const double rms = distance_rms(learnt, truth, order);
+    if (rms < least) {
+      least = rms;
+      best = order;
+    }
+  } while (std::next_permutation(order.begin(), order.end()));
+  return best;
 }
 
 }  // namespace asterism::learning

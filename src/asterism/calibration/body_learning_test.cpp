@@ -14,54 +14,8 @@ namespace {
 
 using namespace learning;
 
-constexpr double kTurn_rad = 0.26;  // 15°
-
-struct Recording {
-  StereoRig rig = converging_rig();
-  Body truth = six_target_body();
-  std::vector<ObservedFrame> frames;
-  std::vector<RigidMotion> poses;
-};
-
-Recording record(int frames, std::uint64_t seed, const SceneOptions& scene = {}, double turn_rad = kTurn_rad,
-                 const Body& background = {}) {
-  Recording recording;
-  for (int f = 0; f < frames; ++f) {
-    RandomStream random(seed, static_cast<std::uint64_t>(f));
-    StereoCentres centres{f, 0.1 * f, {}, {}};
-    recording.poses.push_back(pose_near(random, turn_rad));
-    SceneOptions seen = scene;
-    seen.hidden = 0;
-    add_body(centres, recording.rig, background, RigidMotion{}, seen, random);
-    add_body(centres, recording.rig, recording.truth, recording.poses.back(), scene, random);
-    recording.frames.push_back(observed(std::move(centres), recording.rig, scene));
-  }
-  return recording;
-}
-
-BodyLearningOptions six_targets() {
-  BodyLearningOptions options;
-  options.targets = 6;
-  return options;
-}
-
-/// Which true target each learnt one is, by laying one body on the other in the best of all orders.
-std::vector<std::size_t> match(const Body& learnt, const Body& truth) {
-  std::vector<std::size_t> order(truth.targets.size()), best;
-  std::iota(order.begin(), order.end(), 0);
-  double least = 1e9;
-  do {
-    const double rms = distance_rms(learnt, truth, order);
-    if (rms < least) {
-      least = rms;
-      best = order;
-    }
-  } while (std::next_permutation(order.begin(), order.end()));
-  return best;
-}
-
 TEST(LearnBody, FindsCoordinatesNormalsAndDiametersToldOnlyTheNumber) {
-  const Recording recording = record(12, 1);
+  const SeenBody recording = record(12, 1);
   const auto learnt = learn_body(recording.rig, recording.frames, "platform", six_targets());
   ASSERT_TRUE(learnt) << learnt.error().what;
   const auto order = match(learnt->body, recording.truth);
@@ -88,7 +42,7 @@ TEST(LearnBody, FindsCoordinatesNormalsAndDiametersToldOnlyTheNumber) {
 }
 
 TEST(LearnBody, PutsItsFrameIntoTheTargetsAndCountsThemCounterClockwiseAsTheCamerasSeeThem) {
-  const Recording recording = record(8, 2);
+  const SeenBody recording = record(8, 2);
   const auto learnt = learn_body(recording.rig, recording.frames, "platform", six_targets());
   ASSERT_TRUE(learnt);
   Vec3 sum = Vec3::Zero();
@@ -111,7 +65,7 @@ TEST(LearnBody, IsNotMisledByHiddenTargetsClutterOrGhosts) {
   SceneOptions scene;
   scene.hidden = 0.15;
   scene.gate_sigmas = 600;  // some ghosts in each frame
-  const Recording recording = record(20, 3, scene, kTurn_rad, clutter(25, 3));
+  const SeenBody recording = record(20, 3, scene, kTurn_rad, clutter(25, 3));
   std::size_t points = 0;
   for (const ObservedFrame& frame : recording.frames) points += frame.points.size();
   RecordProperty("points", std::to_string(points));
@@ -123,7 +77,7 @@ TEST(LearnBody, IsNotMisledByHiddenTargetsClutterOrGhosts) {
 }
 
 TEST(LearnBody, SeesThroughLensDistortion) {
-  Recording recording = record(0, 4);
+  SeenBody recording = record(0, 4);
   recording.rig = converging_rig(5);
   for (int f = 0; f < 12; ++f) {
     RandomStream random(4, static_cast<std::uint64_t>(f));
@@ -137,7 +91,7 @@ TEST(LearnBody, SeesThroughLensDistortion) {
 }
 
 TEST(LearnBody, TakesFrameAndIdsFromANominalBody) {
-  const Recording recording = record(10, 5);
+  const SeenBody recording = record(10, 5);
   Body nominal = recording.truth;
   RandomStream random(5, 99);
   for (Target& target : nominal.targets)
@@ -152,7 +106,7 @@ TEST(LearnBody, TakesFrameAndIdsFromANominalBody) {
 }
 
 TEST(LearnBody, RefusesANominalBodyItIsNot) {
-  const Recording recording = record(6, 6);
+  const SeenBody recording = record(6, 6);
   Body nominal = recording.truth;
   nominal.targets[2].position.x() += 40;
   const auto learnt = learn_body(recording.rig, recording.frames, "platform", six_targets(), &nominal);
@@ -169,7 +123,7 @@ TEST(LearnBody, StatesDistancesAsWellAsItLearntThem) {
   scene.sigma_px = 0.02;
   scene.hidden = 0.1;
   for (int repeat = 0; repeat < kRepeats; ++repeat) {
-    const Recording recording = record(8, 100 + static_cast<std::uint64_t>(repeat), scene);
+    const SeenBody recording = record(8, 100 + static_cast<std::uint64_t>(repeat), scene);
     const auto learnt = learn_body(recording.rig, recording.frames, "platform", six_targets());
     ASSERT_TRUE(learnt) << learnt.error().what;
     const auto order = match(learnt->body, recording.truth);
@@ -196,7 +150,7 @@ TEST(LearnBody, StatesDistancesAsWellAsItLearntThem) {
 }
 
 TEST(LearnBody, CarriesTheRigsOwnDoubtIntoTheCoordinates) {
-  Recording recording = record(8, 7);
+  SeenBody recording = record(8, 7);
   const auto sure = learn_body(recording.rig, recording.frames, "platform", six_targets());
   // The baseline is known to 1 in 10,000 and so are all lengths.
   recording.rig.covariance = MatX::Zero(16, 16);
@@ -217,7 +171,7 @@ TEST(LearnBody, CarriesTheRigsOwnDoubtIntoTheCoordinates) {
 }
 
 TEST(LearnBody, RefusesAViewThatBelongsToSomethingElse) {
-  Recording recording = record(10, 8);
+  SeenBody recording = record(10, 8);
   recording.frames[4].centres.left[2].ellipse.centre += Vec2(0.4, 0.3);
   const auto learnt = learn_body(recording.rig, recording.frames, "platform", six_targets());
   ASSERT_TRUE(learnt);
@@ -228,7 +182,7 @@ TEST(LearnBody, RefusesAViewThatBelongsToSomethingElse) {
 TEST(LearnBody, ComesBackWithoutNormalsWhenTheCentresHaveNoShape) {
   SceneOptions scene;
   scene.shapes = false;
-  const Recording recording = record(8, 9, scene);
+  const SeenBody recording = record(8, 9, scene);
   const auto learnt = learn_body(recording.rig, recording.frames, "platform", six_targets());
   ASSERT_TRUE(learnt);
   EXPECT_FALSE(learnt->body.targets[0].normal);
@@ -237,7 +191,7 @@ TEST(LearnBody, ComesBackWithoutNormalsWhenTheCentresHaveNoShape) {
 }
 
 TEST(LearnBody, SaysThatNothingMoves) {
-  Recording recording = record(0, 10);
+  SeenBody recording = record(0, 10);
   for (int f = 0; f < 6; ++f) {
     RandomStream random(10, static_cast<std::uint64_t>(f)), still(10, 1000);
     StereoCentres centres{f, 0, {}, {}};
@@ -251,7 +205,7 @@ TEST(LearnBody, SaysThatNothingMoves) {
 }
 
 TEST(LearnBody, SaysHowManyTargetsItFoundWhenTheyAreTooFewOrTooMany) {
-  const Recording recording = record(8, 11);
+  const SeenBody recording = record(8, 11);
   BodyLearningOptions options = six_targets();
   options.targets = 8;
   const auto more = learn_body(recording.rig, recording.frames, "platform", options);
@@ -265,46 +219,8 @@ TEST(LearnBody, SaysHowManyTargetsItFoundWhenTheyAreTooFewOrTooMany) {
   EXPECT_NE(fewer.error().what.find("Does the body have 6?"), std::string::npos) << fewer.error().what;
 }
 
-TEST(LearnBody, TellsTwoMovingBodiesApartByTheirNumberOfTargetsOrSaysThatItCannot) {
-  Recording recording = record(0, 12);
-  Body probe{"probe", {}};
-  for (const Vec3& p : {Vec3(0, 0, 600), Vec3(70, 10, 600), Vec3(20, 90, 610), Vec3(-60, 30, 590),
-                        Vec3(-30, -80, 605), Vec3(55, -60, 598)}) {
-    probe.targets.push_back({std::to_string(probe.targets.size()), p, Vec3::UnitZ(), 8.0, std::nullopt});
-  }
-  Body small = probe;
-  small.targets.pop_back();
-  for (const Body& other : {probe, small}) {
-    recording.frames.clear();
-    for (int f = 0; f < 8; ++f) {
-      RandomStream random(12, static_cast<std::uint64_t>(f));
-      StereoCentres centres{f, 0, {}, {}};
-      add_body(centres, recording.rig, recording.truth, pose_near(random, kTurn_rad), {}, random);
-      add_body(centres, recording.rig, other, pose_near(random, kTurn_rad, Vec3(100, 100, 1900)), {}, random);
-      recording.frames.push_back(observed(std::move(centres), recording.rig));
-    }
-    const auto learnt = learn_body(recording.rig, recording.frames, "platform", six_targets());
-    if (other.targets.size() == 6) {
-      ASSERT_FALSE(learnt);
-      EXPECT_EQ(learnt.error().reason, BodyLearningFailure::SeveralBodies) << learnt.error().what;
-      const auto meant = learn_body(recording.rig, recording.frames, "probe", six_targets(), &probe);
-      ASSERT_TRUE(meant) << meant.error().what;
-      EXPECT_LT((meant->body.targets[1].position - probe.targets[1].position).norm(), 0.1);
-      const auto rest =
-          learn_body(recording.rig, recording.frames, "platform", six_targets(), nullptr, {&probe, 1});
-      ASSERT_TRUE(rest) << rest.error().what;
-      EXPECT_LT(distance_rms(rest->body, recording.truth, match(rest->body, recording.truth)), 0.02);
-    } else {
-      ASSERT_TRUE(learnt) << learnt.error().what;
-      EXPECT_LT(distance_rms(learnt->body, recording.truth, match(learnt->body, recording.truth)), 0.02);
-      ASSERT_FALSE(learnt->warnings.empty());
-      EXPECT_NE(learnt->warnings.front().find("passed over"), std::string::npos) << learnt->warnings.front();
-    }
-  }
-}
-
 TEST(LearnBody, WarnsWhenTheBodyHardlyTurned) {
-  const Recording recording = record(6, 13, {}, 0.01);
+  const SeenBody recording = record(6, 13, {}, 0.01);
   const auto learnt = learn_body(recording.rig, recording.frames, "platform", six_targets());
   ASSERT_TRUE(learnt) << learnt.error().what;
   ASSERT_FALSE(learnt->warnings.empty());
@@ -312,7 +228,7 @@ TEST(LearnBody, WarnsWhenTheBodyHardlyTurned) {
 }
 
 TEST(LearnBody, AsksForTheNumberOfTargetsAndForFrames) {
-  const Recording recording = record(2, 14);
+  const SeenBody recording = record(2, 14);
   BodyLearningOptions untold;
   EXPECT_THROW((void)learn_body(recording.rig, recording.frames, "platform", untold), InputError);
   const auto learnt = learn_body(recording.rig, recording.frames, "platform", six_targets());
@@ -321,7 +237,7 @@ TEST(LearnBody, AsksForTheNumberOfTargetsAndForFrames) {
 }
 
 TEST(LearnBody, GivesTheSameBitsOnAnyNumberOfThreads) {
-  const Recording recording = record(6, 15);
+  const SeenBody recording = record(6, 15);
   set_thread_count(1);
   const auto one = learn_body(recording.rig, recording.frames, "platform", six_targets());
   set_thread_count(2);

@@ -52,6 +52,20 @@ TEST(LearnBodyOf, ThrowsTheReasonWhenTheMeasurementDidNotComeOff) {
   }
 }
 
+TEST(LearnBodyOf, ThrowsTheNameOfTheKnownBodyRatherThanLearnItUnderAnother) {
+  Recording recording = recording_of_centres(true);
+  Body scanner = six_target_body();
+  scanner.name = "scanner";
+  recording.bodies = {scanner};
+  try {
+    (void)learn_body_of(recording, "platform", six_targets(), nullptr, no_progress);
+    FAIL() << "the scanner was learnt as the platform";
+  } catch (const MeasurementError& error) {
+    EXPECT_NE(std::string(error.what()).find("`scanner`"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(learn_body_of(recording, "scanner", six_targets(), nullptr, no_progress).body.name, "scanner");
+}
+
 TEST(LearnBodyOf, AsksForARig) {
   Recording recording = recording_of_centres(true);
   recording.rig.reset();
