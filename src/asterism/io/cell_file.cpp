@@ -84,7 +84,7 @@ RigidMotion pose_of(const CellSection& section, const Places& places) {
         places.rig);
   }
   section.only(both(kPose, kSeenPose));
-  const RigidMotion pose = plain_pose(section);
+  RigidMotion pose = plain_pose(section);
   if (!section.has("in")) return pose;
   const std::string name = section.text("in");
   for (const auto& [body, rest] : places.rest) {

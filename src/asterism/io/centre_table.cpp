@@ -120,6 +120,7 @@ std::vector<StereoCentres> stereo_centres(const std::vector<CentreRow>& rows, co
     }
   }
   std::vector<StereoCentres> result;
+  result.reserve(frames.size());
   for (auto& [frame, centres] : frames) result.push_back(std::move(centres));
   return result;
 }
