@@ -35,7 +35,7 @@ struct Case {
 };
 
 std::vector<Body> read_scene(const Case& c) {
-  std::ifstream file(std::filesystem::path(__FILE__).parent_path() / "scenes" / (c.scene + ".csv"));
+  std::ifstream file(std::filesystem::path(ASTERISM_SCENES) / (c.scene + ".csv"));
   if (!file) throw InputError(c.scene, "no such scene");
   std::vector<Body> bodies;
   std::string line;
