@@ -161,6 +161,48 @@ TEST(DetectTargets, WeighsShotNoiseAndStaysHonest) {
   EXPECT_NEAR(100.0 * inside / all, 95, 2.5);
 }
 
+/// Grey levels of nine discs on a flat ground without any noise, bright or dark.
+template <class Grey>
+Raster<Grey> noise_free(bool dark, double gain) {
+  RandomStream none(0, 0);
+  return digitise<Grey>(dark ? canvas_of(nine_discs(), 200, -180) : canvas_of(nine_discs()), 0, none, gain);
+}
+
+void expect_all_nine(const Image& image, Polarity polarity) {
+  DetectionOptions options;
+  options.polarity = polarity;
+  const auto centres = detect_targets(image, options);
+  ASSERT_EQ(centres.size(), 9U);
+  for (const Ellipse& disc : nine_discs()) {
+    const Centre& centre = nearest(centres, disc.centre);
+    EXPECT_LT((centre.px() - disc.centre).norm(), 0.01);
+    EXPECT_GT(centre.covariance(0, 0), 0);
+    EXPECT_GT(centre.covariance.determinant(), 0);
+    EXPECT_LT(centre.covariance.trace(), 0.01 * 0.01);
+  }
+}
+
+TEST(DetectTargets, NeedsNoNoise) {
+  expect_all_nine(noise_free<std::uint8_t>(false, 1), Polarity::Bright);
+  expect_all_nine(noise_free<std::uint8_t>(true, 1), Polarity::Dark);
+  expect_all_nine(noise_free<std::uint16_t>(false, 257), Polarity::Bright);
+  expect_all_nine(noise_free<std::uint16_t>(true, 257), Polarity::Dark);
+}
+
+TEST(DetectTargets, FindsDiscsInAnImageOfTwoLevelsWhenToldTheBlur) {
+  DetectionOptions options;
+  options.blur_px = 0.4;  // of which two levels say nothing
+  Raster8 image = noise_free<std::uint8_t>(false, 1);
+  for (auto& grey : image.pixels) grey = grey > 110 ? 200 : 20;
+  const auto centres = detect_targets(image, options);
+  ASSERT_EQ(centres.size(), 9U);
+  for (const Ellipse& disc : nine_discs()) {
+    const Centre& centre = nearest(centres, disc.centre);
+    EXPECT_LT((centre.px() - disc.centre).norm(), 0.3);
+    EXPECT_GT(centre.covariance.determinant(), 0);
+  }
+}
+
 TEST(DetectTargets, FollowsUnevenLight) {
   Canvas canvas = canvas_of(nine_discs(), 0, 60);
   for (int y = 0; y < canvas.height; ++y) {

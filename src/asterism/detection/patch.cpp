@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "asterism/detection/edge_fit.hpp"
@@ -92,7 +93,7 @@ template Patch cut_patch(const Raster16&, Tone<std::uint16_t>, const GreyScale&,
 template <class Grey>
 GreyScale grey_scale(const Raster<Grey>& image, Tone<Grey> tone, const Ellipse& ellipse) {
   const Patch patch = cut_patch(image, tone, {1, 1}, ellipse, 5);
-  unsigned first = 0, brightest = 0, divisor = 0;
+  unsigned first = 0, brightest = 0, darkest = std::numeric_limits<unsigned>::max(), divisor = 0;
   bool any = false;
   for_each_pixel(patch, [&](std::size_t i) {
     if (patch.usable[i] == kBeyondImage) return;
@@ -100,9 +101,12 @@ GreyScale grey_scale(const Raster<Grey>& image, Tone<Grey> tone, const Ellipse& 
     if (!any) first = grey;
     any = true;
     brightest = std::max(brightest, grey);
+    darkest = std::min(darkest, grey);
     divisor = std::gcd(divisor, grey > first ? grey - first : first - grey);
   });
-  return grey_scale<Grey>(tone, std::max(1U, divisor), brightest);
+  // A handful of levels (an ideal image) says nothing of how they are counted.
+  if (divisor == 0 || brightest - darkest < 16 * divisor) divisor = 1;
+  return grey_scale<Grey>(tone, divisor, brightest);
 }
 
 template GreyScale grey_scale(const Raster8&, Tone<std::uint8_t>, const Ellipse&);

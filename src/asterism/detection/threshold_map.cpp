@@ -68,10 +68,22 @@ ASTERISM_INLINE float noise_of(const Sample<Grey>& differences) {
   return static_cast<float>((sum + (kKept - below) * most) / (0.728 * kKept));
 }
 
-/// Samples one tile; `divisor` gathers the greatest common divisor of differences.
+/// What differences between neighbours tell of the grey step.
+struct StepSearch {
+  unsigned divisor = 0;    // the greatest common divisor of all that were seen
+  unsigned different = 0;  // how many were not zero
+
+  ASTERISM_INLINE void see(unsigned difference) {
+    if (difference == 0) return;
+    ++different;
+    if (divisor != 1) divisor = std::gcd(divisor, difference);
+  }
+};
+
+/// Samples one tile.
 template <class Grey>
 ASTERISM_INLINE void sample_tile(const Grey* tile, int stride, int width, int height, Tone<Grey> tone,
-                                 Sample<Grey>& levels, Sample<Grey>& differences, unsigned& divisor) {
+                                 Sample<Grey>& levels, Sample<Grey>& differences, StepSearch& step) {
   for (int j = 0; j < kSamplesDown; ++j) {
     const Grey* line = tile + static_cast<std::ptrdiff_t>((2 * j + 1) * height / (2 * kSamplesDown)) * stride;
     for (int i = 0; i < kSamplesAcross; ++i) {
@@ -81,38 +93,60 @@ ASTERISM_INLINE void sample_tile(const Grey* tile, int stride, int width, int he
       const auto difference = static_cast<Grey>(here > beside ? here - beside : beside - here);
       levels.values[k] = here;
       differences.values[k] = difference;
-      if (divisor != 1 && difference != 0) divisor = std::gcd(divisor, static_cast<unsigned>(difference));
+      step.see(difference);
     }
   }
 }
 
-/// Background and noise of all tiles; returns the grey step.
+/// Background and noise of all tiles.
 template <class Grey>
-ASTERISM_INLINE unsigned fill_tiles(const Raster<Grey>& image, Tone<Grey> tone, int columns, int rows,
-                                    float* background, float* noise) {
+ASTERISM_INLINE StepSearch fill_tiles(const Raster<Grey>& image, Tone<Grey> tone, int columns, int rows,
+                                      float* background, float* noise) {
   constexpr int kTile = ThresholdMap::kTile;
   Sample<Grey> levels, differences;
-  unsigned divisor = 0;
+  StepSearch step;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       const int width = std::min(kTile, image.width - column * kTile);
       const int height = std::min(kTile, image.height - row * kTile);
       sample_tile(image.row(row * kTile) + column * kTile, image.width, width, height, tone, levels,
-                  differences, divisor);
+                  differences, step);
       *background++ = levels.quantile(kSamples * 2 / 5);
       *noise++ = noise_of(differences);
     }
   }
-  return divisor;
+  return step;
 }
 
-ASTERISM_CLONES unsigned fill_tiles_8(const Raster8& image, Tone<std::uint8_t> tone, int columns, int rows,
-                                      float* background, float* noise) {
+ASTERISM_CLONES StepSearch fill_tiles_8(const Raster8& image, Tone<std::uint8_t> tone, int columns, int rows,
+                                        float* background, float* noise) {
   return fill_tiles(image, tone, columns, rows, background, noise);
 }
-ASTERISM_CLONES unsigned fill_tiles_16(const Raster16& image, Tone<std::uint16_t> tone, int columns, int rows,
-                                       float* background, float* noise) {
+ASTERISM_CLONES StepSearch fill_tiles_16(const Raster16& image, Tone<std::uint16_t> tone, int columns,
+                                         int rows, float* background, float* noise) {
   return fill_tiles(image, tone, columns, rows, background, noise);
+}
+
+/// The grey step of the image. Where hardly anything differs (an ideal image without noise) the sample sees
+/// too few differences to tell, and every pixel is asked. A step of which the image holds but a handful says
+/// nothing of how grey levels are counted: two levels may be any.
+template <class Grey>
+unsigned step_of(const Raster<Grey>& image, const StepSearch& sampled) {
+  constexpr unsigned kEnough = 100, kFewestLevels = 16;
+  if (sampled.divisor == 1) return 1;
+  unsigned divisor = sampled.divisor;
+  if (sampled.different < kEnough) {
+    for (int y = 0; y < image.height && divisor != 1; ++y) {
+      const Grey* row = image.row(y);
+      for (int x = 1; x < image.width; ++x) {
+        if (row[x] == row[x - 1]) continue;
+        divisor = std::gcd(divisor, static_cast<unsigned>(std::abs(int{row[x]} - int{row[x - 1]})));
+      }
+    }
+  }
+  if (divisor <= 1) return 1;
+  const auto [least, most] = std::minmax_element(image.pixels.begin(), image.pixels.end());
+  return static_cast<unsigned>(*most - *least) < kFewestLevels * divisor ? 1 : divisor;
 }
 
 }  // namespace
@@ -134,13 +168,13 @@ ThresholdMap threshold_map(const Raster<Grey>& image, Tone<Grey> tone) {
   map.rows = (image.height + kTile - 1) / kTile;
   map.background.resize(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows));
   map.noise.resize(map.background.size());
-  unsigned divisor = 0;
+  StepSearch step;
   if constexpr (sizeof(Grey) == 1) {
-    divisor = fill_tiles_8(image, tone, map.columns, map.rows, map.background.data(), map.noise.data());
+    step = fill_tiles_8(image, tone, map.columns, map.rows, map.background.data(), map.noise.data());
   } else {
-    divisor = fill_tiles_16(image, tone, map.columns, map.rows, map.background.data(), map.noise.data());
+    step = fill_tiles_16(image, tone, map.columns, map.rows, map.background.data(), map.noise.data());
   }
-  map.step = std::max(1U, divisor);
+  map.step = step_of(image, step);
   return map;
 }
 
