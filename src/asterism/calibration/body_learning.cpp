@@ -26,7 +26,7 @@ BodyModel model_of(const RigidSet& set) {
   return model;
 }
 
-void learn_shapes(const StereoRig& rig, Adjusted& adjusted, const BodyLearningOptions& options) {
+void learn_shapes(const StereoRig& rig, AdjustedBody& adjusted, const BodyLearningOptions& options) {
   adjusted.shapes.clear();
   for (std::size_t t = 0; t < adjusted.model.positions.size(); ++t) {
     const auto shape = fit_disc_shape(rig, adjusted.model, t, adjusted.views, options.shape_error_px);
@@ -38,9 +38,10 @@ void learn_shapes(const StereoRig& rig, Adjusted& adjusted, const BodyLearningOp
 
 /// Coordinates and poses by the bundle, normals and radii by the shapes, in turn: each hardly needs the
 /// other.
-Result<Adjusted, NoBody> adjust(const StereoRig& rig, const RigidSet& set,
-                                std::span<const ObservedFrame> frames, const BodyLearningOptions& options) {
-  Adjusted adjusted{model_of(set), {}, {}, {}};
+Result<AdjustedBody, NoBody> adjust(const StereoRig& rig, const RigidSet& set,
+                                    std::span<const ObservedFrame> frames,
+                                    const BodyLearningOptions& options) {
+  AdjustedBody adjusted{model_of(set), {}, {}, {}};
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
     if (round > 0) learn_shapes(rig, adjusted, options);

@@ -28,7 +28,7 @@ double distance_sigma(const BodyModel& model, const MatX& covariance) {
   return std::sqrt(sum / pairs);
 }
 
-LearntTarget quality_of(const StereoRig& rig, const Adjusted& adjusted, std::size_t target) {
+LearntTarget quality_of(const StereoRig& rig, const AdjustedBody& adjusted, std::size_t target) {
   LearntTarget quality;
   double squares = 0;
   std::size_t last_frame = adjusted.model.tracker_from_body.size();
@@ -69,7 +69,7 @@ std::string_view words_of(ShapeFailure failure) {
   return "";
 }
 
-void add_warnings(const Adjusted& adjusted, LearntBody& learnt) {
+void add_warnings(const AdjustedBody& adjusted, LearntBody& learnt) {
   if (learnt.rotation_rad < kSmallTurn_rad) {
     learnt.warnings.push_back(
         fmt::format("the body turned by {:.1f}° only: its normals, and its shape along the lines of "
@@ -96,7 +96,7 @@ void add_warnings(const Adjusted& adjusted, LearntBody& learnt) {
 }
 
 /// Told in the body's frame and order.
-Adjusted in_frame(Adjusted adjusted, const BodyFrame& frame) {
+AdjustedBody in_frame(AdjustedBody adjusted, const BodyFrame& frame) {
   std::vector<std::size_t> place(frame.order.size());
   std::vector<Result<DiscShape, ShapeFailure>> shapes;
   for (std::size_t t = 0; t < frame.order.size(); ++t) {
@@ -110,7 +110,7 @@ Adjusted in_frame(Adjusted adjusted, const BodyFrame& frame) {
   return adjusted;
 }
 
-int frames_used(const Adjusted& adjusted) {
+int frames_used(const AdjustedBody& adjusted) {
   std::vector<bool> used(adjusted.model.tracker_from_body.size(), false);
   for (const BodyView& view : adjusted.views) used[view.frame] = used[view.frame] || !view.rejected;
   return static_cast<int>(std::count(used.begin(), used.end(), true));
@@ -118,9 +118,9 @@ int frames_used(const Adjusted& adjusted) {
 
 }  // namespace
 
-LearntBody report_body(const StereoRig& rig, Adjusted in_set, const BodyFrame& frame, const std::string& name,
-                       std::size_t frames_given) {
-  const Adjusted adjusted = in_frame(std::move(in_set), frame);
+LearntBody report_body(const StereoRig& rig, AdjustedBody in_set, const BodyFrame& frame,
+                       const std::string& name, std::size_t frames_given) {
+  const AdjustedBody adjusted = in_frame(std::move(in_set), frame);
   LearntBody learnt;
   learnt.body.name = name;
   for (std::size_t t = 0; t < frame.order.size(); ++t) {

@@ -12,7 +12,7 @@
 namespace asterism {
 
 /// What the bundle and the fits of the shapes made of a set, in the set's frame and order.
-struct Adjusted {
+struct AdjustedBody {
   BodyModel model;
   std::vector<BodyView> views;
   BundleSummary summary;
@@ -21,7 +21,7 @@ struct Adjusted {
 
 /// The body told in its frame, with the quality of its targets and with warnings of what is poorly known.
 /// The ambiguity is left to the caller.
-[[nodiscard]] LearntBody report_body(const StereoRig& rig, Adjusted adjusted, const BodyFrame& frame,
+[[nodiscard]] LearntBody report_body(const StereoRig& rig, AdjustedBody adjusted, const BodyFrame& frame,
                                      const std::string& name, std::size_t frames_given);
 
 }  // namespace asterism
