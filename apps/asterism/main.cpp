@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 
 #include "asterism/core/options.hpp"
 #include "asterism/core/result.hpp"
@@ -114,4 +115,11 @@ int main_of(int argc, char** argv) {
 }  // namespace
 }  // namespace asterism::app
 
-int main(int argc, char** argv) { return asterism::app::main_of(argc, argv); }
+int main(int argc, char** argv) {
+  try {
+    return asterism::app::main_of(argc, argv);
+  } catch (const std::exception& error) {
+    std::fputs(error.what(), stderr);
+    return 1;
+  }
+}

@@ -51,7 +51,7 @@ OutputFile::~OutputFile() {
   if (descriptor_ < 0) return;
   try {
     if (unfinished_ == Unfinished::Keep) flush();
-  } catch (const InputError&) {
+  } catch (const InputError&) {  // NOLINT(bugprone-empty-catch)
     // The failure that broke off the work has been told; what could be written is kept.
   }
   if (size_ > whole_lines_ && ::ftruncate(descriptor_, whole_lines_) != 0) unfinished_ = Unfinished::Remove;

@@ -45,9 +45,9 @@ Normal linearise(std::span<const Correspondence> labels, std::span<const Uncerta
   double squares = 0;
   fit.chi_square = 0;
   fit.log_det_covariances = 0;
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    const UncertainPoint& target = of(targets, labels[i].pattern);
-    const UncertainPoint& point = of(scene, labels[i].scene);
+  for (const Correspondence& label : labels) {
+    const UncertainPoint& target = of(targets, label.pattern);
+    const UncertainPoint& point = of(scene, label.scene);
     const Vec3 turned = rotation * target.position;
     const Vec3 residual = point.position - turned - fit.tracker_from_body.translation;
     const Mat3 covariance = point.covariance + rotation * target.covariance * rotation.transpose();
