@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
+#include <algorithm>
 
-#include "asterism/core/result.hpp"
+#include "asterism/io/files_for_tests.hpp"
 
 namespace asterism {
 namespace {
@@ -27,25 +27,17 @@ radius_mm = 2
 glints = 2
 )";
 
-std::filesystem::path write(const std::string& text) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "cell_file_test.toml";
-  std::ofstream(file) << text;
-  return file;
-}
-
 std::string complaint(std::string text, const std::string& from, const std::string& to) {
   text.replace(text.find(from), from.size(), to);
-  try {
-    static_cast<void>(read_cell(write(text)));
-  } catch (const InputError& error) {
-    const std::string what = error.what();
-    return what.substr(what.find("cell_file_test.toml") + 19);
-  }
-  return "";
+  const TestFolder folder;
+  const std::filesystem::path file = folder.write("cell.toml", text);
+  const std::string what = input_error_of([&] { static_cast<void>(read_cell(file)); });
+  return what.substr(std::min(file.string().size(), what.size()));
 }
 
 TEST(ReadCell, TakesASmallCell) {
-  const Cell cell = read_cell(write(kSound));
+  const TestFolder folder;
+  const Cell cell = read_cell(folder.write("cell.toml", kSound));
   EXPECT_EQ(cell.rig.left.fx, 3000);
   EXPECT_EQ(cell.light.glints, 2);
   EXPECT_EQ(cell.movers.at(0).body.targets.at(0).id, "A");
@@ -70,7 +62,8 @@ TEST(ReadCell, SaysWhereAndWhatIsWrong) {
 
 TEST(WriteCell, IsReadBackTheSame) {
   const Cell cell = cell_of("engine_casing");
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "cell_round_trip.toml";
+  const TestFolder folder;
+  const std::filesystem::path file = folder / "cell.toml";
   write_cell(file, cell);
   const Cell again = read_cell(file);
   EXPECT_EQ(again.name, cell.name);
@@ -92,13 +85,8 @@ TEST(WriteCell, IsReadBackTheSame) {
 }
 
 TEST(CellOf, NamesTheBuiltInCellsWhenThereIsNoSuchFile) {
-  try {
-    static_cast<void>(cell_of("engin_casing"));
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "engin_casing: is neither a file nor a built-in cell; built in are: engine_casing");
-  }
+  EXPECT_EQ(input_error_of([] { static_cast<void>(cell_of("engin_casing")); }),
+            "engin_casing: is neither a file nor a built-in cell; built in are: engine_casing");
 }
 
 }  // namespace
