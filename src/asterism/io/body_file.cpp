@@ -8,10 +8,10 @@
 #include <cstdint>
 #include <cstring>
 
+#include "asterism/core/output_file.hpp"
 #include "asterism/core/result.hpp"
 #include "asterism/geometry/linear_algebra.hpp"
 #include "asterism/io/csv_file.hpp"
-#include "asterism/io/output_file.hpp"
 #include "asterism/io/toml_file.hpp"
 
 namespace asterism {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "asterism/io/files_for_tests.hpp"
+#include "asterism/core/files_for_tests.hpp"
 
 namespace asterism {
 namespace {

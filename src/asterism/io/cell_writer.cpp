@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include "asterism/core/output_file.hpp"
 #include "asterism/io/cell_file.hpp"
-#include "asterism/io/output_file.hpp"
 
 namespace asterism {
 namespace {

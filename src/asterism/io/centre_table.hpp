@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "asterism/camera/stereo_rig.hpp"
-#include "asterism/io/output_file.hpp"
+#include "asterism/core/output_file.hpp"
 #include "asterism/measurement/frame.hpp"
 
 namespace asterism {

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "asterism/core/options.hpp"
+#include "asterism/core/output_file.hpp"
 #include "asterism/core/result.hpp"
-#include "asterism/io/output_file.hpp"
 
 namespace asterism {
 namespace {

@@ -9,9 +9,9 @@
 #include <cstring>
 #include <opencv2/imgcodecs.hpp>
 
+#include "asterism/core/output_file.hpp"
 #include "asterism/core/result.hpp"
 #include "asterism/io/image_bytes.hpp"
-#include "asterism/io/output_file.hpp"
 #include "asterism/io/quiet_opencv.hpp"
 
 namespace asterism {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "asterism/core/files_for_tests.hpp"
 #include "asterism/core/random.hpp"
-#include "asterism/io/files_for_tests.hpp"
 
 namespace asterism {
 namespace {

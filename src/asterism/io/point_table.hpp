@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "asterism/io/output_file.hpp"
+#include "asterism/core/output_file.hpp"
 #include "asterism/measurement/label.hpp"
 #include "asterism/measurement/point.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "asterism/cell/body.hpp"
-#include "asterism/io/output_file.hpp"
+#include "asterism/core/output_file.hpp"
 #include "asterism/measurement/pose_record.hpp"
 
 namespace asterism {

@@ -9,8 +9,8 @@
 #include <opencv2/core.hpp>
 
 #include "asterism/core/options.hpp"
+#include "asterism/core/output_file.hpp"
 #include "asterism/io/kalibr_file.hpp"
-#include "asterism/io/output_file.hpp"
 #include "asterism/io/quiet_opencv.hpp"
 
 namespace asterism {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "asterism/io/files_for_tests.hpp"
+#include "asterism/core/files_for_tests.hpp"
 
 namespace asterism {
 namespace {

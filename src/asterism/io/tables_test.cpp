@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "asterism/core/files_for_tests.hpp"
 #include "asterism/io/centre_table.hpp"
 #include "asterism/io/csv_file.hpp"
-#include "asterism/io/files_for_tests.hpp"
 #include "asterism/io/label_table.hpp"
 #include "asterism/io/point_table.hpp"
 #include "asterism/io/pose_table.hpp"

@@ -8,10 +8,10 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "asterism/core/output_file.hpp"
 #include "asterism/core/result.hpp"
 #include "asterism/report/page.hpp"
 #include "asterism/report/sightings.hpp"
-#include "asterism/report/whole_file.hpp"
 
 namespace asterism {
 namespace {
@@ -224,7 +224,7 @@ std::string tracking_report_json(const TrackingReport& report) {
 }
 
 void write_report(const std::filesystem::path& path, const TrackingReport& report) {
-  write_whole_file(path, page_with_data(report_page(), tracking_report_json(report)));
+  write_file(path, page_with_data(report_page(), tracking_report_json(report)));
 }
 
 }  // namespace asterism

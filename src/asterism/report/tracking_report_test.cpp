@@ -192,19 +192,20 @@ TEST_F(WriteReport, LeavesTheOlderFileAndNoPieceWhenItCannotWrite) {
     write_report(path, small_report());
     FAIL() << "a folder was overwritten";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("report.html: cannot be written"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("report.html: is a folder"), std::string::npos);
   }
   EXPECT_TRUE(std::filesystem::exists(path / "in the way"));
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "report.html.part"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "report.html.partial"));
 }
 
 TEST_F(WriteReport, NamesTheFileThatCannotBeMade) {
-  EXPECT_THROW(write_report(folder_ / "nowhere" / "report.html", small_report()), InputError);
+  std::ofstream(folder_ / "file") << "no folder";
+  EXPECT_THROW(write_report(folder_ / "file" / "report.html", small_report()), InputError);
 }
 
 TEST_F(WriteReport, SaysSoWhenTheDiskIsFull) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  std::filesystem::create_symlink("/dev/full", folder_ / "report.html.part");
+  std::filesystem::create_symlink("/dev/full", folder_ / "report.html.partial");
   EXPECT_THROW(write_report(folder_ / "report.html", small_report()), InputError);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "report.html"));
 }

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <optional>
 
+#include "asterism/core/output_file.hpp"
 #include "asterism/core/parallel.hpp"
 #include "asterism/io/body_file.hpp"
 #include "asterism/io/cell_file.hpp"
 #include "asterism/io/centre_table.hpp"
 #include "asterism/io/csv_file.hpp"
 #include "asterism/io/image_file.hpp"
-#include "asterism/io/output_file.hpp"
 #include "asterism/io/recording.hpp"
 #include "asterism/io/rig_file.hpp"
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "asterism/camera/disc_image.hpp"
-#include "asterism/io/files_for_tests.hpp"
+#include "asterism/core/files_for_tests.hpp"
 #include "asterism/io/image_file.hpp"
 #include "asterism/io/pose_table.hpp"
 

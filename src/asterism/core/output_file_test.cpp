@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "asterism/io/output_file.hpp"
+#include "asterism/core/output_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
 #include <csignal>
 
-#include "asterism/io/files_for_tests.hpp"
+#include "asterism/core/files_for_tests.hpp"
 
 namespace asterism {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "asterism/io/output_file.hpp"
+#include "asterism/core/output_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
