@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
   try {
     return asterism::app::main_of(argc, argv);
   } catch (const std::exception& error) {
-    std::fputs(error.what(), stderr);
-    return 1;
+    return asterism::app::fail(asterism::app::kBug,
+                               fmt::format("asterism: this is a bug, please report it: {}", error.what()));
   }
 }
