@@ -3,7 +3,9 @@
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/non_central_t.hpp>
 #include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 
 namespace asterism {
 
@@ -23,5 +25,19 @@ double fisher_tail(double value, double numerator_degrees, double denominator_de
 }
 
 double normal_quantile(double p) { return boost::math::quantile(boost::math::normal(), p); }
+
+double normal_probability(double value) { return boost::math::cdf(boost::math::normal(), value); }
+
+double student_quantile(double p, double degrees) {
+  return boost::math::quantile(boost::math::students_t(degrees), p);
+}
+
+double student_tail(double value, double degrees) {
+  return boost::math::cdf(boost::math::complement(boost::math::students_t(degrees), value));
+}
+
+double noncentral_student_tail(double value, double degrees, double noncentrality) {
+  return boost::math::cdf(boost::math::complement(boost::math::non_central_t(degrees, noncentrality), value));
+}
 
 }  // namespace asterism

@@ -29,5 +29,22 @@ TEST(NormalQuantile, GivesTheTabledValues) {
   EXPECT_NEAR(normal_quantile(0.5), 0, 1e-12);
 }
 
+TEST(NormalProbability, UndoesTheQuantile) {
+  EXPECT_NEAR(normal_probability(normal_quantile(0.031)), 0.031, 1e-15);
+}
+
+// NIST/SEMATECH e-Handbook, table 1.3.6.7.2.
+TEST(StudentQuantile, GivesTheTabledValues) {
+  EXPECT_NEAR(student_quantile(0.975, 10), 2.228, 5e-4);
+  EXPECT_NEAR(student_quantile(0.975, 49), 2.010, 5e-4);
+  EXPECT_NEAR(student_tail(student_quantile(0.975, 49), 49), 0.025, 1e-14);
+  EXPECT_NEAR(student_tail(-1, 1), 0.75, 1e-14);  // Cauchy
+}
+
+TEST(NoncentralStudentTail, IsStudentsWithoutADifferenceAndGrowsWithIt) {
+  EXPECT_NEAR(noncentral_student_tail(1.3, 7, 0), student_tail(1.3, 7), 1e-13);
+  EXPECT_NEAR(noncentral_student_tail(0, 12, 1.5), normal_probability(1.5), 1e-13);  // sign of a normal
+}
+
 }  // namespace
 }  // namespace asterism
