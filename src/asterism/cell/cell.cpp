@@ -11,20 +11,6 @@
 namespace asterism {
 namespace {
 
-/// Holds each number to the limits its describe() states.
-class LimitsCheck : public OptionVisitor {
- public:
-  void number(std::string_view name, double& value, Limits limits, std::string_view) override {
-    check_number(name, value, limits);
-  }
-  void integer(std::string_view name, int& value, Limits limits, std::string_view) override {
-    check_number(name, value, limits);
-  }
-  void flag(std::string_view, bool&, std::string_view) override {}
-  void text(std::string_view, std::string&, std::string_view) override {}
-  void choice(std::string_view, int&, const std::vector<std::string>&, std::string_view) override {}
-};
-
 void check_motion(const Motion& motion, const std::string& where) {
   const auto* keyed = std::get_if<KeyedMotion>(&motion);
   if (keyed == nullptr) return;
@@ -36,26 +22,20 @@ void check_motion(const Motion& motion, const std::string& where) {
   }
 }
 
-bool has_extent(const Box& box) { return box.size_mm.allFinite() && box.size_mm.minCoeff() > 0; }
-bool has_extent(const Capsule& capsule) {
-  return capsule.from_mm.allFinite() && capsule.to_mm.allFinite() && capsule.radius_mm > 0;
-}
-bool has_extent(const Frustum& cone) {
-  return cone.height_mm > 0 && std::min(cone.bottom_radius_mm, cone.top_radius_mm) >= 0 &&
-         std::max(cone.bottom_radius_mm, cone.top_radius_mm) > 0;
+void check_carrier(const std::string& body, const Cell& cell, const std::string& where, const char* what) {
+  std::vector<std::string> names;
+  for (const Mover& mover : cell.movers) names.push_back(mover.body.name);
+  if (std::find(names.begin(), names.end(), body) != names.end()) return;
+  throw InputError(where, fmt::format("{} body `{}`, which is not there; bodies are: {}", what, body,
+                                      fmt::join(names, ", ")));
 }
 
 void check_obstacle(const Obstacle& obstacle, const Cell& cell, const std::string& where) {
   const std::string here = fmt::format("{}: obstacle `{}`", where, obstacle.name);
-  if (!std::visit([](const auto& shape) { return has_extent(shape); }, obstacle.shape)) {
+  if (!has_extent(obstacle.shape)) {
     throw InputError(here, "its sizes must be positive");
   }
-  if (obstacle.body.empty()) return;
-  std::vector<std::string> names;
-  for (const Mover& mover : cell.movers) names.push_back(mover.body.name);
-  if (std::find(names.begin(), names.end(), obstacle.body) != names.end()) return;
-  throw InputError(here, fmt::format("it moves with body `{}`, which is not there; bodies are: {}",
-                                     obstacle.body, fmt::join(names, ", ")));
+  if (!obstacle.body.empty()) check_carrier(obstacle.body, cell, here, "it moves with");
 }
 
 }  // namespace
@@ -128,6 +108,10 @@ void check_cell(const Cell& cell, const std::string& where) {
   if (cell.sensor.bits != 8 && cell.sensor.bits != 16) {
     throw InputError(where, fmt::format("`bits` is {}; it must be 8 or 16", cell.sensor.bits));
   }
+  if (cell.volume) check_working_volume(*cell.volume, where);
+  if (!cell.layout) return;
+  check_layout_task(*cell.layout, where);
+  check_carrier(cell.layout->body, cell, where, "the layout task is for");
 }
 
 StereoRig rig_of(const CameraPair& pair) {
@@ -148,17 +132,6 @@ StereoRig rig_of(const CameraPair& pair) {
 }
 
 RigidMotion tracker_from_frame(const SeenFrom& seen, const StereoRig& rig) {
-  // The middle camera: halfway between the two, looking along the mean of their axes, its x along the
-  // baseline.
-  const RigidMotion left_from_right = rig.right_from_left.inverse();
-  const Vec3 middle = 0.5 * left_from_right.translation;
-  Mat3 axes;
-  axes.col(0) = left_from_right.translation.normalized();
-  const Vec3 ahead = Vec3::UnitZ() + left_from_right.rotation * Vec3::UnitZ();
-  axes.col(2) = (ahead - ahead.dot(axes.col(0)) * axes.col(0)).normalized();
-  axes.col(1) = axes.col(2).cross(axes.col(0));
-  const RigidMotion tracker_from_middle = {quaternion_from_matrix(axes), middle};
-
   const double ce = std::cos(seen.elevation_rad), se = std::sin(seen.elevation_rad);
   const double ca = std::cos(seen.azimuth_rad), sa = std::sin(seen.azimuth_rad);
   const Vec3 towards_camera(ce * ca, ce * sa, se);
@@ -168,7 +141,7 @@ RigidMotion tracker_from_frame(const SeenFrom& seen, const StereoRig& rig) {
   frame_axes.col(1) = frame_axes.col(2).cross(frame_axes.col(0));
   const RigidMotion frame_from_middle = {quaternion_from_matrix(frame_axes),
                                          seen.at_mm + seen.range_mm * towards_camera};
-  return tracker_from_middle * frame_from_middle.inverse();
+  return tracker_from_middle(rig) * frame_from_middle.inverse();
 }
 
 }  // namespace asterism

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "asterism/camera/stereo_rig.hpp"
 #include "asterism/cell/body.hpp"
+#include "asterism/cell/layout_task.hpp"
 #include "asterism/cell/motion.hpp"
 #include "asterism/cell/shape.hpp"
+#include "asterism/cell/working_volume.hpp"
 #include "asterism/core/options.hpp"
 
 namespace asterism {
@@ -61,10 +64,13 @@ struct Cell {
   Sensor sensor;
   Light light;
   Timing timing;
+  std::optional<WorkingVolume> volume;  // where the tracker is good; none: wherever both cameras see
+  std::optional<LayoutTask> layout;     // what is asked of the targets of one body
 };
 
 /// Throws InputError for: a bad rig or body (check_rig, check_bodies), key times that do not increase, an
-/// obstacle without extent or on a body that is not there, options outside their limits.
+/// obstacle without extent or on a body that is not there, options outside their limits, a working volume
+/// or layout task that is none.
 void check_cell(const Cell& cell, const std::string& where);
 
 [[nodiscard]] std::vector<Body> bodies_of(const Cell& cell);

@@ -84,6 +84,16 @@ RigidMotion pose_at(const Motion& motion, double time_s) {
   return std::visit([&](const auto& kind) { return pose_of(kind, time_s); }, motion);
 }
 
+std::vector<RigidMotion> poses_between(const Motion& motion, double from_s, double to_s, int count) {
+  require(count > 0, "a motion is looked at at least once");
+  std::vector<RigidMotion> poses;
+  for (int i = 0; i < count; ++i) {
+    const double share = count > 1 ? static_cast<double>(i) / (count - 1) : 0.0;
+    poses.push_back(pose_at(motion, from_s + share * (to_s - from_s)));
+  }
+  return poses;
+}
+
 Motion at_rest(const RigidMotion& tracker_from_body) { return KeyedMotion{{{0.0, tracker_from_body}}}; }
 
 }  // namespace asterism

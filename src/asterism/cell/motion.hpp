@@ -44,6 +44,10 @@ using Motion = std::variant<KeyedMotion, Sweep>;
 /// tracker_from_body at a moment.
 [[nodiscard]] RigidMotion pose_at(const Motion& motion, double time_s);
 
+/// `count` poses evenly in time, the first and the last moment among them (one alone: the first).
+[[nodiscard]] std::vector<RigidMotion> poses_between(const Motion& motion, double from_s, double to_s,
+                                                     int count);
+
 /// A body that stands still.
 [[nodiscard]] Motion at_rest(const RigidMotion& tracker_from_body);
 

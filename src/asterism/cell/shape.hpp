@@ -33,6 +33,9 @@ struct Frustum {
 
 using Shape = std::variant<Box, Capsule, Frustum>;
 
+/// Are its sizes finite and positive?
+[[nodiscard]] bool has_extent(const Shape& shape);
+
 /// A solid that stands in the way: the part, a flange, a cable, the scanner's housing. It moves with a
 /// body of the cell or stands in the tracker's frame.
 struct Obstacle {

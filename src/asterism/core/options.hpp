@@ -71,4 +71,18 @@ class SectionVisitor : public OptionVisitor {
 /// Throws InputError when a number is not finite or outside its limits, a choice is none of its words.
 void check_number(std::string_view name, double value, Limits limits);
 
+/// Holds each number it is shown to the limits its describe() states.
+class LimitsCheck : public OptionVisitor {
+ public:
+  void number(std::string_view name, double& value, Limits limits, std::string_view) override {
+    check_number(name, value, limits);
+  }
+  void integer(std::string_view name, int& value, Limits limits, std::string_view) override {
+    check_number(name, value, limits);
+  }
+  void flag(std::string_view, bool&, std::string_view) override {}
+  void text(std::string_view, std::string&, std::string_view) override {}
+  void choice(std::string_view, int&, const std::vector<std::string>&, std::string_view) override {}
+};
+
 }  // namespace asterism
