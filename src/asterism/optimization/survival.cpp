@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "asterism/optimization/survival.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "asterism/core/result.hpp"
+
+namespace asterism {
+namespace {
+
+Survival resolved(Survival survival, std::size_t m) {
+  if (survival == Survival::ReferencePoints || (survival == Survival::HypervolumeContribution && m != 2))
+    throw InputError(fmt::format("survival: of {} objectives, survivors are chosen by crowding", m));
+  if (survival != Survival::Automatic) return survival;
+  return m == 2 ? Survival::HypervolumeContribution : Survival::Crowding;
+}
+
+}  // namespace
+
+std::span<const Survivor> SurvivorSelection::operator()(const Contenders& contenders, std::size_t wanted) {
+  require(contenders.m > 0 && contenders.objectives.size() % contenders.m == 0,
+          "objectives are count × m numbers");
+  const std::size_t count = contenders.objectives.size() / contenders.m;
+  require(contenders.violations.empty() || contenders.violations.size() == count,
+          "each contender has its violation");
+  require(contenders.niches.empty() || contenders.niches.size() == count, "each contender has its niche");
+  survivors_.clear();
+  share_places(contenders, std::min(wanted, count));
+  for (const Niche& niche : niches_)
+    select_in_niche(contenders, std::span(members_).subspan(niche.first, niche.last - niche.first),
+                    niche.places);
+  return survivors_;
+}
+
+/// Lists the niches by name and hands out the places: smallest niches first, each an equal share of what is
+/// left, so that what one cannot fill goes to the larger ones.
+void SurvivorSelection::share_places(const Contenders& contenders, std::size_t wanted) {
+  const std::size_t count = contenders.objectives.size() / contenders.m;
+  members_.resize(count);
+  std::iota(members_.begin(), members_.end(), 0U);
+  niches_.clear();
+  if (contenders.niches.empty()) {
+    niches_.push_back({0, 0, count, wanted});
+    return;
+  }
+  std::ranges::stable_sort(members_, {}, [&](std::uint32_t i) { return contenders.niches[i]; });
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t name = contenders.niches[members_[i]];
+    if (niches_.empty() || niches_.back().name != name) niches_.push_back({name, i, i, 0});
+    ++niches_.back().last;
+  }
+  std::ranges::sort(niches_, {}, [](const Niche& n) { return std::pair(n.last - n.first, n.name); });
+  std::size_t left = wanted;
+  for (std::size_t i = 0; i < niches_.size(); ++i) {
+    niches_[i].places = std::min(niches_[i].last - niches_[i].first, left / (niches_.size() - i));
+    left -= niches_[i].places;
+  }
+  std::ranges::sort(niches_, {}, &Niche::name);
+}
+
+void SurvivorSelection::select_in_niche(const Contenders& contenders, std::span<const std::uint32_t> niche,
+                                        std::size_t places) {
+  feasible_.clear();
+  infeasible_.clear();
+  for (const std::uint32_t i : niche)
+    (contenders.violations.empty() || contenders.violations[i] <= 0 ? feasible_ : infeasible_).push_back(i);
+
+  const std::size_t m = contenders.m;
+  const std::size_t first = survivors_.size();
+  if (feasible_.size() * m == contenders.objectives.size()) {
+    select_feasible(contenders.objectives, m, places);
+  } else {
+    feasible_objectives_.clear();
+    for (const std::uint32_t i : feasible_)
+      for (std::size_t k = 0; k < m; ++k) feasible_objectives_.push_back(contenders.objectives[i * m + k]);
+    select_feasible(feasible_objectives_, m, std::min(places, feasible_.size()));
+    for (Survivor& survivor : std::span(survivors_).subspan(first))
+      survivor.index = feasible_[survivor.index];
+  }
+
+  places -= survivors_.size() - first;
+  if (places == 0) return;
+  const auto violation = [&](std::uint32_t i) { return contenders.violations[i]; };
+  std::ranges::sort(infeasible_, {}, [&](std::uint32_t i) { return std::pair(violation(i), i); });
+  int rank = feasible_.empty() ? 0 : static_cast<int>(sort_.fronts().count());
+  for (std::size_t i = 0; i < places; ++i) {
+    if (i > 0 && violation(infeasible_[i]) != violation(infeasible_[i - 1])) ++rank;
+    survivors_.push_back({infeasible_[i], rank, 0});
+  }
+}
+
+/// Indices written are those of `objectives`.
+void SurvivorSelection::select_feasible(std::span<const double> objectives, std::size_t m,
+                                        std::size_t places) {
+  const Fronts& fronts = sort_(objectives, m);
+  for (std::size_t k = 0; k < fronts.count() && places > 0; ++k) {
+    const auto front = fronts.front(k);
+    const std::size_t kept = std::min(places, front.size());
+    const Survival survival = resolved(survival_, m);
+    if (survival == Survival::HypervolumeContribution)
+      thin_by_hypervolume(objectives, m, front, static_cast<int>(k), kept);
+    else
+      thin_by_crowding(objectives, m, front, static_cast<int>(k), kept);
+    places -= kept;
+  }
+}
+
+void SurvivorSelection::thin_by_crowding(std::span<const double> objectives, std::size_t m,
+                                         std::span<const std::uint32_t> front, int rank, std::size_t places) {
+  const auto distance = crowding_(objectives, m, front);
+  by_distance_.resize(front.size());
+  std::iota(by_distance_.begin(), by_distance_.end(), 0U);
+  if (places < front.size()) {
+    std::ranges::nth_element(by_distance_, by_distance_.begin() + static_cast<std::ptrdiff_t>(places), {},
+                             [&](std::uint32_t at) { return std::pair(-distance[at], at); });
+    by_distance_.resize(places);
+    std::ranges::sort(by_distance_);
+  }
+  for (const std::uint32_t at : by_distance_) survivors_.push_back({front[at], rank, distance[at]});
+}
+
+void SurvivorSelection::thin_by_hypervolume(std::span<const double> objectives, std::size_t m,
+                                            std::span<const std::uint32_t> front, int rank,
+                                            std::size_t places) {
+  x_.resize(front.size());
+  y_.resize(front.size());
+  for (std::size_t i = 0; i < front.size(); ++i) {
+    x_[i] = objectives[front[i] * m];
+    y_[i] = objectives[front[i] * m + 1];
+  }
+  const auto kept = thinning_(x_, y_, places);
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    survivors_.push_back({front[kept[i]], rank, thinning_.contributions()[i]});
+}
+
+}  // namespace asterism
