@@ -23,7 +23,7 @@ std::vector<Vec3> board_points(const Board& board) {
 }
 
 std::vector<std::vector<int>> board_symmetries(const Board& board) {
-  const int count = board.columns * board.rows;
+  const int count = board.count();
   std::vector<int> same(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) same[static_cast<std::size_t>(i)] = i;
   std::vector<std::vector<int>> ways = {same};
@@ -34,8 +34,8 @@ std::vector<std::vector<int>> board_symmetries(const Board& board) {
     std::vector<int> quarter(same.size());
     for (int row = 0; row < board.rows; ++row) {
       for (int column = 0; column < board.columns; ++column) {
-        quarter[static_cast<std::size_t>(row * board.columns + column)] =
-            column * board.columns + (board.columns - 1 - row);
+        quarter[static_cast<std::size_t>(board.index(row, column))] =
+            board.index(column, board.columns - 1 - row);
       }
     }
     ways.push_back(quarter);

@@ -18,6 +18,10 @@ struct Board {
   /// the distance of neighbours in a row (as OpenCV).
   double pitch_mm = 0;
   double circle_diameter_mm = 0;  // 0 = not known: estimated from the images
+
+  [[nodiscard]] int count() const { return columns * rows; }
+  /// The place of a point in the board's order, row by row.
+  [[nodiscard]] int index(int row, int column) const { return row * columns + column; }
 };
 
 /// Where the points lie, row by row, mm, z = 0.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
 #include "asterism/core/parallel.hpp"
 
@@ -83,13 +84,13 @@ std::vector<ImageRms> image_rms(const Bundle& bundle) {
 int drop_outliers(Bundle& bundle, double sigmas) {
   int dropped = 0;
   const auto residuals = residuals_of(bundle);
-  for (auto residual = residuals.rbegin(); residual != residuals.rend(); ++residual) {
+  for (const auto& residual : std::views::reverse(residuals)) {
     const Mat2 covariance =
-        residual->covariance + bundle.model_sigma_px * bundle.model_sigma_px * Mat2::Identity();
-    if (residual->px.dot(covariance.inverse() * residual->px) <= sigmas * sigmas) continue;
-    BundleView& view = bundle.views[static_cast<std::size_t>(residual->view)];
-    auto& points = (residual->side == Side::Left ? view.left : view.right)->points;
-    points.erase(points.begin() + residual->point);
+        residual.covariance + bundle.model_sigma_px * bundle.model_sigma_px * Mat2::Identity();
+    if (residual.px.dot(covariance.inverse() * residual.px) <= sigmas * sigmas) continue;
+    BundleView& view = bundle.views[static_cast<std::size_t>(residual.view)];
+    auto& points = (residual.side == Side::Left ? view.left : view.right)->points;
+    points.erase(points.begin() + residual.point);
     ++dropped;
   }
   return dropped;

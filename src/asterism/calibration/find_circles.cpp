@@ -12,7 +12,7 @@ namespace {
 
 /// The centres in the grid's order; empty when they form no such grid.
 std::vector<Centre> ordered_into_grid(const std::vector<Centre>& centres, const Board& board) {
-  const auto count = static_cast<std::size_t>(board.columns * board.rows);
+  const auto count = static_cast<std::size_t>(board.count());
   if (centres.size() < count) return {};
   std::vector<cv::Point2f> candidates, grid;
   for (const Centre& centre : centres) {
@@ -47,7 +47,7 @@ double median(std::vector<double> values) {
 void measure_sizes(BoardView& view, const std::vector<Centre>& grid, const Board& board) {
   std::vector<double> pitches, shares;
   const auto at = [&](int row, int column) -> const Centre& {
-    return grid[static_cast<std::size_t>(row * board.columns + column)];
+    return grid[static_cast<std::size_t>(board.index(row, column))];
   };
   // Two steps of an asymmetric grid span a parallelogram of two pitches squared.
   const double pitches_squared = board.pattern == BoardPattern::AsymmetricCircles ? 2.0 : 1.0;

@@ -177,7 +177,7 @@ BodyPose Tracker::measure_body(std::size_t body, const TrackedFrame& frame, cons
       found || (solution->degrees_of_freedom >= kRedundancyOfPrediction &&
                 fits(solution->estimate, *predicted[body], options_.filter.gate_probability));
   if (!trusted) return {static_cast<int>(body), PoseStatus::Lost, {}, 0, 0};
-  const BodyPose pose = body_pose(body, *solution, views);
+  BodyPose pose = body_pose(body, *solution, views);
   if (pose.status == PoseStatus::Partial && !fits_as_usual(body, *solution)) {
     ++failures_[static_cast<std::size_t>(PoseFailure::Inconsistent)];
     return {static_cast<int>(body), PoseStatus::Lost, {}, 0, 0};
