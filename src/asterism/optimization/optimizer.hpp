@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,8 +24,12 @@ using BatchEvaluator = std::function<void(const OptimizationProblem& problem, st
 void evaluate_batch(const OptimizationProblem& problem, std::span<const Genes> genes,
                     std::span<double> objectives, std::span<double> violations);
 
-/// Carries islands on by so many generations, each on its own (see island.hpp), wherever that is done.
+/// Carries islands on by so many generations, each on its own, wherever that is done.
 using IslandRunner = std::function<void(std::span<IslandState> islands, int generations)>;
+
+/// What is done to each of them: a pure function of its arguments.
+void advance_island(const OptimizationProblem& problem, const OptimizerOptions& options, IslandState& island,
+                    int generations);
 
 /// Who does the work when it is not this process's threads; empty = they do. With `run_islands`,
 /// `evaluate` is not called.
@@ -47,7 +51,7 @@ struct OptimizationResult {
   std::vector<Candidate> population;  // all islands'
   std::vector<Candidate> front;       // feasible and non-dominated: of the archive, else of the population
   std::vector<GenerationRecord> history;
-  StopReason stopped = StopReason::Generations;
+  std::optional<StopReason> stopped;  // empty while it could go on
   std::uint64_t front_checksum = 0;
   // Where no candidate was feasible: the one that broke the constraints least, and by how much.
   Candidate closest;

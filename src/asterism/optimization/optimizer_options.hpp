@@ -5,10 +5,9 @@
 #include <string>
 
 #include "asterism/core/options.hpp"
+#include "asterism/optimization/survival.hpp"
 
 namespace asterism {
-
-enum class Survival;  // survival.hpp
 
 /// How the optimiser searches. What decides about the result (all but `generations`, `evaluations`,
 /// `seconds` and the stagnation limits) belongs to a run's identity: a checkpoint made with other values is
@@ -20,12 +19,12 @@ struct OptimizerOptions {
   double seconds = 0;              // stop at the next generation after so long; 0 = no limit
   int stagnation_generations = 0;  // stop when the hypervolume grew too little over so many; 0 = never
   double stagnation_gain = 1e-4;   // too little: relative growth
-  Survival survival{};             // Survival::Automatic
-  bool archive = true;             // keep every non-dominated candidate found, not only the population's
-  bool remove_duplicates = true;   // a child equal to a living candidate is bred anew
-  int islands = 1;                 // populations that exchange candidates along a ring
-  int migration_interval = 20;     // generations between exchanges
-  int migrants = 5;                // candidates sent to the next island
+  Survival survival = Survival::Automatic;
+  bool archive = true;            // keep every non-dominated candidate found, not only the population's
+  bool remove_duplicates = true;  // a child equal to a living candidate is bred anew
+  int islands = 1;                // populations that exchange candidates along a ring
+  int migration_interval = 20;    // generations between exchanges
+  int migrants = 5;               // candidates sent to the next island
   std::uint64_t seed = 1;
 };
 

@@ -120,7 +120,7 @@ void visit(Archive& archive, T& island) {
   archive(island.rank);
   archive(island.spread);
   archive(island.immigrants);
-  archive(island.found);
+  archive(island.archive);
   visit(archive, island.closest);
 }
 
@@ -129,7 +129,6 @@ void visit(Archive& archive, T& state) {
   archive(state.problem);
   archive(state.options);
   archive(state.islands);
-  archive(state.archive);
   archive(state.reference);
   archive(state.history);
 }

@@ -26,7 +26,7 @@ struct GenerationRecord {
   double seconds = 0;         // spent so far, the time before a resumption included
 };
 
-/// One population between two generations. Arrays are row-major: candidate × objective.
+/// One population and its archive between two generations. Arrays are row-major: candidate × objective.
 struct IslandState {
   int index = 0;
   int generation = -1;  // −1 = not yet born
@@ -36,7 +36,7 @@ struct IslandState {
   std::vector<int> rank;              // with `spread`, what tournaments compare: less is better
   std::vector<double> spread;         // of equal ranks more is better
   std::vector<Candidate> immigrants;  // join in the next generation
-  std::vector<Candidate> found;       // good children not yet handed to the archive
+  std::vector<Candidate> archive;     // feasible and non-dominated of all that were ever evaluated here
   Candidate closest;                  // least violating of all so far while none was feasible
 };
 
@@ -45,7 +45,6 @@ struct OptimizerState {
   std::string problem;  // OptimizationProblem::identity
   std::string options;  // identity of the options
   std::vector<IslandState> islands;
-  std::vector<Candidate> archive;
   std::vector<double> reference;  // of the hypervolume; empty until a candidate is feasible
   std::vector<GenerationRecord> history;
 };

@@ -16,11 +16,15 @@ constexpr double kSameGene = 1e-14;  // parents nearer than this have one gene, 
 /// In (0, 1), never 0, so that roots and inverses of it are finite.
 double open_uniform(RandomStream& random) { return (static_cast<double>(random.bits()) + 0.5) * 0x1.0p-32; }
 
-/// How far a child lies from the middle of its parents, in half their distance, when they are `apart` and
-/// `room` is what is left between the outer parent and the bound.
-double spread_factor(double u, double apart, double room, int power, const IntegerRoot& root) {
-  const double alpha = 2 - integer_power(apart / (apart + 2 * room), power);
-  const double area = u * alpha;
+/// Where the distribution of a child's spread is cut off by a bound `room` away from the outer parent:
+/// twice its area up to there. Below `far`, apart/(apart + 2 room) is too small to matter.
+double area_within(double apart, double room, int power, double far) {
+  const double reach = apart + 2 * room;
+  return apart < far * reach ? 2 : 2 - integer_power(apart / reach, power);
+}
+
+/// How far a child lies from the middle of its parents, in half their distance.
+double spread(double area, const IntegerRoot& root) {
   const bool inside = area <= 1;
   const double factor = root(inside ? area : 2 - area);
   return inside ? factor : 1 / factor;
@@ -40,7 +44,8 @@ void describe(VariationOptions& options, OptionVisitor& visit) {
 Variation::Variation(const VariationOptions& options)
     : options_(options),
       crossover_root_(options.crossover_index + 1),
-      mutation_root_(options.mutation_index + 1) {}
+      mutation_root_(options.mutation_index + 1),
+      far_(crossover_root_(0x1p-54)) {}
 
 void Variation::cross(std::span<const double> mother, std::span<const double> father,
                       std::span<const double> lowest, std::span<const double> highest,
@@ -68,8 +73,10 @@ void Variation::cross(std::span<const double> mother, std::span<const double> fa
       const double apart = high - low;
       if (!(apart > kSameGene)) continue;
       const double u = open_uniform(random);
-      const double below = spread_factor(u, apart, low - lowest[i], power, crossover_root_);
-      const double above = spread_factor(u, apart, highest[i] - high, power, crossover_root_);
+      const double area_below = area_within(apart, low - lowest[i], power, far_);
+      const double area_above = area_within(apart, highest[i] - high, power, far_);
+      const double below = spread(u * area_below, crossover_root_);
+      const double above = area_above == area_below ? below : spread(u * area_above, crossover_root_);
       const double lower = std::clamp(0.5 * (low + high - below * apart), lowest[i], highest[i]);
       const double upper = std::clamp(0.5 * (low + high + above * apart), lowest[i], highest[i]);
       const bool swap = ((swapping >> bit) & 1) != 0;
@@ -84,14 +91,15 @@ void Variation::mutate(std::span<double> genes, std::span<const double> lowest,
   const std::size_t count = genes.size();
   if (count == 0) return;
   const double spared = 1 - std::min(1.0, options_.mutations / static_cast<double>(count));
+  const double four_spared = spared * spared * (spared * spared);
   const int power = options_.mutation_index + 1;
-  std::size_t i = 0;
-  for (;;) {
+  for (std::size_t i = 0;; ++i) {
     // One number tells how many genes are spared until the next mutation.
     const double u = random.uniform();
-    for (double all_spared = spared; u < all_spared; all_spared *= spared) {
-      if (++i >= count) return;
-    }
+    double all_spared = 1;
+    for (; u < all_spared * four_spared && i < count; i += 4) all_spared *= four_spared;
+    for (; u < all_spared * spared && i < count; ++i) all_spared *= spared;
+    if (i >= count) return;
     const double range = highest[i] - lowest[i];
     const double v = open_uniform(random);
     if (range > 0) {
@@ -102,7 +110,6 @@ void Variation::mutate(std::span<double> genes, std::span<const double> lowest,
       const double step = 1 - mutation_root_(side + (1 - side) * integer_power(1 - room, power));
       genes[i] = std::clamp(gene + (down ? -step : step) * range, lowest[i], highest[i]);
     }
-    if (++i >= count) return;
   }
 }
 

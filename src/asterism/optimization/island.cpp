@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "asterism/optimization/island.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "asterism/core/random.hpp"
+#include "asterism/core/result.hpp"
+#include "asterism/optimization/share_work.hpp"
+
+namespace asterism {
+namespace {
+
+/// What a stream of random numbers is for; bits 4 to 7 of its key count attempts.
+enum Purpose : std::uint32_t { kSample, kMothers, kFathers, kVary };
+constexpr int kAttempts = 4;  // to breed a child that nobody equals
+
+RandomStream stream(std::uint64_t seed, int island, int generation, std::size_t individual, Purpose purpose,
+                    int attempt = 0) {
+  const auto key = (static_cast<std::uint32_t>(island) << 8) | (static_cast<std::uint32_t>(attempt) << 4);
+  const std::uint64_t index = (static_cast<std::uint64_t>(generation) << 32) | individual;
+  return {seed, index, key | purpose};
+}
+
+/// Fisher and Yates.
+void shuffle(std::vector<std::uint32_t>& items, RandomStream random) {
+  for (std::size_t i = items.size(); i > 1; --i)
+    std::swap(items[i - 1], items[random.below(static_cast<std::uint32_t>(i))]);
+}
+
+bool wins(const IslandState& island, std::uint32_t a, std::uint32_t b) {
+  if (island.rank[a] != island.rank[b]) return island.rank[a] < island.rank[b];
+  return island.spread[a] >= island.spread[b];
+}
+
+template <class T>
+std::vector<double> row(const T& rows, std::size_t i, std::size_t width) {
+  const auto first = rows.begin() + static_cast<std::ptrdiff_t>(i * width);
+  return {first, first + static_cast<std::ptrdiff_t>(width)};
+}
+
+}  // namespace
+
+double total_violation(std::span<const double> violations, std::span<const ConstraintInfo> constraints) {
+  double sum = 0;
+  for (std::size_t c = 0; c < violations.size(); ++c) sum += violations[c] / constraints[c].scale;
+  return sum;
+}
+
+Island::Island(const OptimizationProblem& problem, const OptimizerOptions& options, BatchEvaluator evaluate,
+               int index)
+    : problem_(problem),
+      options_(options),
+      evaluate_(std::move(evaluate)),
+      objectives_(problem.objectives()),
+      constraints_(problem.constraints()),
+      archive_(objectives_.size()),
+      selection_(options.survival) {
+  if (!evaluate_) evaluate_ = evaluate_batch;
+  state_.index = index;
+}
+
+void Island::advance(int generations) {
+  for (int i = 0; i < generations; ++i) {
+    ++state_.generation;
+    if (state_.generation == 0) {
+      be_born();
+    } else {
+      breed();
+    }
+    evaluate_children();
+    remember_closest();
+    if (options_.archive) archive_children();
+    welcome_immigrants();
+    select();
+  }
+}
+
+/// The problem's seeds are dealt to the islands in turn; the rest is random.
+void Island::be_born() {
+  const auto count = static_cast<std::size_t>(options_.population);
+  const auto islands = static_cast<std::size_t>(options_.islands);
+  const std::vector<Genes> seeds = problem_.seeds();
+  children_.clear();
+  for (auto s = static_cast<std::size_t>(state_.index); s < seeds.size(); s += islands) {
+    if (children_.size() < count) children_.push_back(seeds[s]);
+  }
+  const std::size_t seeded = children_.size();
+  children_.resize(count);
+  share_work(count - seeded, [&](std::size_t i) {
+    RandomStream random = stream(options_.seed, state_.index, 0, i, kSample);
+    children_[seeded + i] = problem_.sample(random);
+  });
+  born_ = count;
+}
+
+void Island::breed() {
+  choose_parents();
+  const std::size_t count = state_.genes.size();
+  if (children_.size() < parents_.size()) children_.resize(parents_.size());
+  share_work(parents_.size() / 2, [&](std::size_t pair) {
+    RandomStream random = stream(options_.seed, state_.index, state_.generation, 2 * pair, kVary);
+    problem_.vary(state_.genes[parents_[2 * pair]], state_.genes[parents_[2 * pair + 1]], children_[2 * pair],
+                  children_[2 * pair + 1], random);
+  });
+  born_ = count;
+  if (options_.remove_duplicates) replace_duplicates();
+}
+
+/// Binary tournaments: in each of two shuffled orders every candidate meets its neighbour.
+void Island::choose_parents() {
+  const std::size_t count = state_.genes.size();
+  parents_.resize(count + count % 2);
+  shuffled_.resize(count);
+  for (const Purpose purpose : {kMothers, kFathers}) {
+    std::iota(shuffled_.begin(), shuffled_.end(), 0U);
+    shuffle(shuffled_, stream(options_.seed, state_.index, state_.generation, 0, purpose));
+    const std::size_t half = purpose == kMothers ? 0 : parents_.size() / 2;
+    for (std::size_t i = 0; i < parents_.size() / 2; ++i) {
+      const std::uint32_t a = shuffled_[(2 * i) % count];
+      const std::uint32_t b = shuffled_[(2 * i + 1) % count];
+      parents_[half + i] = wins(state_, a, b) ? a : b;
+    }
+  }
+}
+
+/// A child that equals a living candidate or an elder child is bred anew with other random numbers, and
+/// left out if that does not help, as in a search space that is exhausted.
+void Island::replace_duplicates() {
+  duplicates_.clear(2 * state_.genes.size() + 2);
+  for (const Genes& genes : state_.genes) duplicates_.add(genes);
+  std::size_t kept = 0;
+  for (std::size_t child = 0; child < born_; ++child) {
+    const std::uint32_t mother = parents_[child - child % 2], father = parents_[child - child % 2 + 1];
+    std::swap(children_[kept], children_[child]);
+    bool is_new = duplicates_.add(children_[kept]);
+    for (int attempt = 1; !is_new && attempt < kAttempts; ++attempt) {
+      RandomStream random = stream(options_.seed, state_.index, state_.generation, child, kVary, attempt);
+      problem_.vary(state_.genes[mother], state_.genes[father], children_[kept], sibling_, random);
+      is_new = duplicates_.add(children_[kept]);
+    }
+    if (is_new) ++kept;
+  }
+  born_ = kept;
+}
+
+void Island::evaluate_children() {
+  const std::size_t m = objectives_.size(), c = constraints_.size();
+  const std::size_t old = state_.genes.size();
+  objectives_of_.resize((old + born_) * m);
+  violations_of_.resize((old + born_) * c);
+  std::ranges::copy(state_.objectives, objectives_of_.begin());
+  std::ranges::copy(state_.violations, violations_of_.begin());
+  evaluate_(problem_, std::span(children_).first(born_), std::span(objectives_of_).subspan(old * m),
+            std::span(violations_of_).subspan(old * c));
+  state_.evaluations += static_cast<long long>(born_);
+  for (std::size_t i = 0; i < born_; ++i) check_child(i);
+}
+
+void Island::check_child(std::size_t child) const {
+  const auto refuse = [&](const char* what, const std::string& name, double value, const char* right) {
+    throw InputError(fmt::format("{} `{}` of candidate {} in generation {} is {}: it must be {}", what, name,
+                                 child + 1, state_.generation, value, right));
+  };
+  const std::size_t row = state_.genes.size() + child;
+  for (std::size_t k = 0; k < objectives_.size(); ++k) {
+    const double value = objectives_of_[row * objectives_.size() + k];
+    if (!std::isfinite(value)) refuse("objective", objectives_[k].name, value, "a finite number");
+  }
+  for (std::size_t k = 0; k < constraints_.size(); ++k) {
+    const double value = violations_of_[row * constraints_.size() + k];
+    if (!(value >= 0 && std::isfinite(value)))
+      refuse("the violation of", constraints_[k].name, value, "0 or a finite number above");
+  }
+}
+
+void Island::archive_children() {
+  const std::size_t m = objectives_.size(), c = constraints_.size(), old = state_.genes.size();
+  for (std::size_t i = 0; i < born_; ++i) {
+    const std::span<const double> violations = std::span(violations_of_).subspan((old + i) * c, c);
+    if (std::ranges::any_of(violations, [](double v) { return v > 0; })) continue;
+    const std::span<const double> objectives = std::span(objectives_of_).subspan((old + i) * m, m);
+    if (!archive_.add(objectives, archived_genes_.size())) continue;
+    archived_genes_.push_back(children_[i]);
+  }
+}
+
+IslandState Island::state() const {
+  IslandState state = state_;
+  for (const auto& member : archive_.members())
+    state.archive.push_back(
+        {archived_genes_[member.index], member.f, std::vector<double>(constraints_.size(), 0.0), 0});
+  return state;
+}
+
+void Island::restore(IslandState state) {
+  state_ = std::move(state);
+  archive_.clear();
+  archived_genes_.clear();
+  for (Candidate& candidate : state_.archive) {
+    archive_.add(candidate.objectives, archived_genes_.size());
+    archived_genes_.push_back(std::move(candidate.genes));
+  }
+  state_.archive.clear();
+}
+
+/// Behind the children, unless an equal one lives here already.
+void Island::welcome_immigrants() {
+  const auto is_known = [&](const Genes& genes) {
+    return std::ranges::find(state_.genes, genes) != state_.genes.end() ||
+           std::find(children_.begin(), children_.begin() + static_cast<std::ptrdiff_t>(born_), genes) !=
+               children_.begin() + static_cast<std::ptrdiff_t>(born_);
+  };
+  contenders_ = state_.genes.size() + born_;
+  for (Candidate& immigrant : state_.immigrants) {
+    if (options_.remove_duplicates && is_known(immigrant.genes)) continue;
+    const std::size_t place = contenders_++ - state_.genes.size();
+    if (place >= children_.size()) children_.resize(place + 1);
+    children_[place].swap(immigrant.genes);
+    objectives_of_.insert(objectives_of_.end(), immigrant.objectives.begin(), immigrant.objectives.end());
+    violations_of_.insert(violations_of_.end(), immigrant.violations.begin(), immigrant.violations.end());
+  }
+  state_.immigrants.clear();
+}
+
+void Island::select() {
+  const std::size_t m = objectives_.size(), c = constraints_.size(), old = state_.genes.size();
+  const auto genes_of = [&](std::size_t i) -> Genes& {
+    return i < old ? state_.genes[i] : children_[i - old];
+  };
+  breach_.clear();
+  niches_.clear();
+  bool has_niches = false;
+  for (std::size_t i = 0; i < contenders_; ++i) {
+    if (c > 0) breach_.push_back(total_violation(std::span(violations_of_).subspan(i * c, c), constraints_));
+    niches_.push_back(problem_.niche_of(genes_of(i)));
+    has_niches = has_niches || niches_[i] != niches_[0];
+  }
+  if (!has_niches) niches_.clear();
+  const auto survivors =
+      selection_({objectives_of_, m, breach_, niches_}, static_cast<std::size_t>(options_.population));
+
+  next_genes_.resize(survivors.size());
+  state_.objectives.clear();
+  state_.violations.clear();
+  state_.rank.clear();
+  state_.spread.clear();
+  for (std::size_t k = 0; k < survivors.size(); ++k) {
+    const std::size_t i = survivors[k].index;
+    next_genes_[k].swap(genes_of(i));
+    for (std::size_t j = 0; j < m; ++j) state_.objectives.push_back(objectives_of_[i * m + j]);
+    for (std::size_t j = 0; j < c; ++j) state_.violations.push_back(violations_of_[i * c + j]);
+    state_.rank.push_back(survivors[k].rank);
+    state_.spread.push_back(survivors[k].spread);
+  }
+  state_.genes.swap(next_genes_);
+}
+
+/// While no candidate is feasible, who comes nearest: the elder among equals.
+void Island::remember_closest() {
+  const std::size_t m = objectives_.size(), c = constraints_.size(), old = state_.genes.size();
+  if (c == 0 || (state_.generation > 0 && state_.closest.objectives.empty())) return;
+  for (std::size_t i = 0; i < born_; ++i) {
+    const double breach = total_violation(std::span(violations_of_).subspan((old + i) * c, c), constraints_);
+    if (breach == 0) {
+      state_.closest = {};
+      return;
+    }
+    if (!state_.closest.objectives.empty() &&
+        !(breach < total_violation(state_.closest.violations, constraints_)))
+      continue;
+    state_.closest = {children_[i], row(objectives_of_, old + i, m), row(violations_of_, old + i, c), 0};
+  }
+}
+
+bool Island::is_feasible(std::size_t i) const {
+  const std::size_t c = constraints_.size();
+  return std::ranges::none_of(std::span(state_.violations).subspan(i * c, c), [](double v) { return v > 0; });
+}
+
+Candidate Island::candidate(std::size_t i) const {
+  return {state_.genes[i], row(state_.objectives, i, objectives_.size()),
+          row(state_.violations, i, constraints_.size()), state_.rank[i]};
+}
+
+std::vector<Candidate> Island::emigrants(std::size_t count) const {
+  std::vector<std::uint32_t> best(state_.genes.size());
+  std::iota(best.begin(), best.end(), 0U);
+  std::ranges::stable_sort(best, [&](std::uint32_t a, std::uint32_t b) {
+    return std::pair(state_.rank[a], -state_.spread[a]) < std::pair(state_.rank[b], -state_.spread[b]);
+  });
+  std::vector<Candidate> sent;
+  for (const std::uint32_t i : best) {
+    if (sent.size() < count) sent.push_back(candidate(i));
+  }
+  return sent;
+}
+
+}  // namespace asterism
