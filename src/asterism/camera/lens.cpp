@@ -90,6 +90,11 @@ DistortionResult distort(const Lens& lens, const Vec2& xy) {
   return {tilted.xy, tilted.by_xy * result.by_xy};
 }
 
+Mat3 sensor_tilt(const Lens& lens) {
+  if (lens.coefficients < 14) return Mat3::Identity();
+  return tilt_homography(lens.distortion[tau_x], lens.distortion[tau_y]).h;
+}
+
 Vec2 pixel_from_normalised(const Lens& lens, const Vec2& xy) {
   return {lens.fx * xy.x() + lens.skew * xy.y() + lens.cx, lens.fy * xy.y() + lens.cy};
 }

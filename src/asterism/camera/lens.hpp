@@ -34,6 +34,9 @@ struct DistortionResult {
 /// Undistorted to distorted normalised coordinates.
 [[nodiscard]] DistortionResult distort(const Lens& lens, const Vec2& xy);
 
+/// The homography of the tilted sensor, applied last; the identity with fewer than 14 coefficients.
+[[nodiscard]] Mat3 sensor_tilt(const Lens& lens);
+
 /// Normalised (distorted) coordinates to pixels and the constant Jacobian of that map.
 [[nodiscard]] Vec2 pixel_from_normalised(const Lens& lens, const Vec2& xy);
 [[nodiscard]] Mat2 pixel_by_normalised(const Lens& lens);

@@ -16,6 +16,9 @@
 
 namespace asterism {
 
+/// A struct that holds lanes and is made outside clones must be alignas(kLanesAlignment): without AVX the
+/// compiler aligns these vectors to 16 bytes only, with AVX it counts on 32.
+constexpr std::size_t kLanesAlignment = 32;
 using DoubleLanes = double __attribute__((vector_size(32)));
 constexpr std::size_t kDoubleLanes = sizeof(DoubleLanes) / sizeof(double);
 
