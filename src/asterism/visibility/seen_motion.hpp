@@ -12,7 +12,7 @@
 namespace asterism {
 
 /// The same motion of a body for four poses at a time: rotation by rows, translation (mm).
-struct MotionLanes {
+struct alignas(kLanesAlignment) MotionLanes {
   std::array<std::array<DoubleLanes, 3>, 3> rotation;
   std::array<DoubleLanes, 3> translation;
 };
