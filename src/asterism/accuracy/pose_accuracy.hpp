@@ -12,8 +12,8 @@
 
 namespace asterism {
 
-/// NotDetermined: the views leave a motion free, as targets on one line do. BehindCamera: a target that is
-/// said to be seen lies behind its camera.
+/// NotDetermined: the views leave a motion free, as targets on one line do, or the rotation is known less
+/// well than `max_sigma_deg`. BehindCamera: a target that is said to be seen lies behind its camera.
 enum class AccuracyFailure { NotDetermined, BehindCamera };
 
 /// Of a pose tracker_from_body: ω (rad), δ (mm) at the body's origin, along the tracker's axes
