@@ -13,7 +13,7 @@ std::size_t first_greater(std::span<const double> values, double x) {
   if (length == 0) return 0;
   while (length > 1) {
     const std::size_t half = length / 2;
-    base += base[half - 1] <= x ? half : 0;
+    base += half & -static_cast<std::size_t>(base[half - 1] <= x);  // all bits or none
     length -= half;
   }
   return static_cast<std::size_t>(base - values.data()) + (*base <= x ? 1 : 0);
@@ -23,11 +23,13 @@ std::size_t first_greater(std::span<const double> values, double x) {
 
 const Fronts& NonDominatedSort::operator()(std::span<const double> objectives, std::size_t m) {
   order_ = lexicographic_order_(objectives, m);
-  fronts_.rank.resize(order_.size());
+  ranks_.resize(order_.size());
   if (m == 1)
     sweep_one(objectives);
   else if (m == 2)
     sweep_two(objectives);
+  else if (m == 3)
+    sweep_three(objectives);
   else
     sweep_many(objectives, m);
   return fronts_;
@@ -37,7 +39,7 @@ void NonDominatedSort::sweep_one(std::span<const double> objectives) {
   int rank = 0;
   for (std::size_t i = 0; i < order_.size(); ++i) {
     if (i > 0 && objectives[order_[i]] != objectives[order_[i - 1]]) ++rank;
-    fronts_.rank[order_[i]] = rank;
+    ranks_[i] = static_cast<std::uint32_t>(rank);
   }
   gather_fronts(order_.empty() ? 0 : static_cast<std::size_t>(rank) + 1);
 }
@@ -58,11 +60,41 @@ void NonDominatedSort::sweep_two(std::span<const double> objectives) {
       else
         tails_[rank] = y;
     }
-    fronts_.rank[order_[i]] = static_cast<int>(rank);
+    ranks_[i] = static_cast<std::uint32_t>(rank);
     last_x = x;
     last_y = y;
   }
   gather_fronts(tails_.size());
+}
+
+/// What has come before is no worse in the first objective, so a front dominates a point if its staircase in
+/// the other two covers it. Who is dominated by a front is dominated by all before it: fronts are searched
+/// by halving.
+void NonDominatedSort::sweep_three(std::span<const double> objectives) {
+  std::size_t fronts = 0;
+  const double* last = nullptr;
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    const double* point = objectives.data() + 3 * std::size_t{order_[i]};
+    if (last != nullptr && std::equal(last, last + 3, point)) {
+      ranks_[i] = ranks_[i - 1];
+      continue;
+    }
+    last = point;
+    std::size_t rank = 0;
+    for (std::size_t length = fronts; length > 0;) {
+      const std::size_t half = length / 2;
+      const bool covered = staircases_[rank + half].covers(point[1], point[2]);
+      rank += covered ? half + 1 : 0;
+      length = covered ? length - half - 1 : half;
+    }
+    if (rank == fronts) {
+      if (++fronts > staircases_.size()) staircases_.emplace_back();
+      staircases_[rank].clear();
+    }
+    staircases_[rank].add(point[1], point[2]);
+    ranks_[i] = static_cast<std::uint32_t>(rank);
+  }
+  gather_fronts(fronts);
 }
 
 /// Efficient non-dominated sort, sequential search (Zhang et al. 2015): earlier points in lexicographic
@@ -79,7 +111,7 @@ void NonDominatedSort::sweep_many(std::span<const double> objectives, std::size_
   for (std::size_t i = 0; i < order_.size(); ++i) {
     const std::uint32_t p = order_[i];
     if (i > 0 && std::ranges::equal(point(p), point(order_[i - 1]))) {
-      fronts_.rank[p] = fronts_.rank[order_[i - 1]];
+      ranks_[i] = ranks_[i - 1];
       continue;
     }
     std::size_t rank = 0;
@@ -88,19 +120,24 @@ void NonDominatedSort::sweep_many(std::span<const double> objectives, std::size_
       ++rank;
     if (rank == fronts && ++fronts > members_.size()) members_.emplace_back();
     members_[rank].push_back(p);
-    fronts_.rank[p] = static_cast<int>(rank);
+    ranks_[i] = static_cast<std::uint32_t>(rank);
   }
   gather_fronts(fronts);
 }
 
 /// Puts the points front after front, keeping their lexicographic order.
 void NonDominatedSort::gather_fronts(std::size_t fronts) {
-  fronts_.begin.assign(fronts + 1, 0);
-  for (const int rank : fronts_.rank) ++fronts_.begin[static_cast<std::size_t>(rank) + 1];
-  for (std::size_t k = 0; k < fronts; ++k) fronts_.begin[k + 1] += fronts_.begin[k];
-  ends_.assign(fronts_.begin.begin(), fronts_.begin.end() - 1);
-  fronts_.order.resize(order_.size());
-  for (const std::uint32_t i : order_) fronts_.order[ends_[static_cast<std::size_t>(fronts_.rank[i])]++] = i;
+  const std::size_t count = order_.size();
+  ends_.assign(fronts + 1, 0);
+  for (const std::uint32_t rank : ranks_) ++ends_[rank + 1];
+  for (std::size_t k = 0; k < fronts; ++k) ends_[k + 1] += ends_[k];
+  fronts_.begin.assign(ends_.begin(), ends_.end());
+  fronts_.order.resize(count);
+  fronts_.rank.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    fronts_.order[ends_[ranks_[i]]++] = order_[i];
+    fronts_.rank[order_[i]] = static_cast<int>(ranks_[i]);
+  }
 }
 
 std::vector<int> non_dominated_ranks(std::span<const double> objectives, std::size_t m) {
