@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// node report_smoke.mjs PAGE: opens the built report page with a small recording from disk, as a reader
-// would, and asks whether it shows what it should. Ends with 77 (skipped) where there is no Chromium.
+// node report_smoke.mjs PAGE: opens the built report page from disk, with a small recording and with a few
+// layouts, as a reader would, and asks whether it shows what it should. Ends with 77 (skipped) where there is no Chromium.
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { findChromium, openBrowser } from './chromium.mjs';
+import { layouts } from './layout_fixture.mjs';
+import { pageWith } from './page_with.mjs';
 
 const kFrames = 40;
 
@@ -34,26 +36,29 @@ function recording() {
   };
 }
 
-function pageWith(template, data) {
-  const open = 'id="report-data">';
-  const begin = template.indexOf(open) + open.length;
-  return template.slice(0, begin) + JSON.stringify(data).replace(/</g, '\\u003c') + template.slice(template.indexOf('</script>', begin));
-}
-
 const failures = [];
 function expect(holds, what) {
   if (!holds) failures.push(what);
 }
 
-async function look({ send, evaluate, problems }, file) {
+async function open({ send, evaluate }, file) {
   await send('Page.navigate', { url: pathToFileURL(file).href });
-  const until = async (expression) => {
+  return async (expression) => {
     for (let i = 0; i < 150; ++i) {
       if (await evaluate(expression)) return true;
       await new Promise((resolve) => setTimeout(resolve, 100));
     }
     return false;
   };
+}
+
+/// How many points of the 3-D view are drawn upon.
+const kInk = `(() => { const c = document.querySelector('.scene canvas'); const t = document.createElement('canvas'); t.width = c.width; t.height = c.height;
+  const x = t.getContext('2d'); x.drawImage(c, 0, 0); return x.getImageData(0, 0, t.width, t.height).data.filter((v, i) => i % 4 === 3 && v > 0).length; })()`;
+
+async function lookAtRecording(browser, file) {
+  const { send, evaluate } = browser;
+  const until = await open(browser, file);
   expect(await until(`document.querySelectorAll('.u-over').length === 6`), 'six plots are drawn');
   expect(await evaluate('document.title') === 'A turning body – asterism', 'the title is that of the recording');
   expect(await evaluate(`document.querySelector('.body-name').textContent`) === '</script><b>platform</b>', 'a name stays text');
@@ -69,14 +74,46 @@ async function look({ send, evaluate, problems }, file) {
   expect(await until(`/^frame 2[12] /.test(document.querySelector('.where').textContent)`), `pointing into a plot goes to its frame, not ${await frame()}`);
   expect((await evaluate(`document.querySelector('.readout').innerText`)).includes('no pose is given'), 'a lost body has no pose');
 
-  const ink = `(() => { const c = document.querySelector('.scene canvas'); const t = document.createElement('canvas'); t.width = c.width; t.height = c.height;
-    const x = t.getContext('2d'); x.drawImage(c, 0, 0); return x.getImageData(0, 0, t.width, t.height).data.filter((v, i) => i % 4 === 3 && v > 0).length; })()`;
-  const empty = await evaluate(ink);
+  const empty = await evaluate(kInk);
   await key('ArrowLeft');
   await key('ArrowLeft');
   await key('ArrowLeft');
-  expect(await until(`${ink} > ${empty}`), 'the 3-D view draws a body when it is found');
-  problems.forEach((problem) => failures.push(problem));
+  expect(await until(`${kInk} > ${empty}`), 'the 3-D view draws a body when it is found');
+}
+
+async function lookAtLayouts(browser, file) {
+  const { send, evaluate } = browser;
+  const until = await open(browser, file);
+  const chosen = () => evaluate(`document.querySelector('.chosen h2').textContent`);
+  expect(await until(`document.querySelectorAll('.u-over').length === 4 && document.querySelectorAll('#figure-pareto .pick').length === 9`), 'the front, the given layout and four plots are drawn');
+  expect(await evaluate('document.title') === 'Layouts of the platform – asterism', 'the title is that of the layouts');
+  expect((await chosen()).startsWith('7 targetsknee'), `the page opens at the knee, not ${await chosen()}`);
+  expect(await evaluate(`document.querySelector('.chosen').innerText.includes('an eighth wins 6 %')`), 'the knee is given its reason');
+  expect(await evaluate(`[...document.querySelectorAll('#figure-pareto text')].some((t) => t.textContent === 'knee: 7 targets')`), 'the knee is named in the chart');
+  expect(await evaluate(`document.querySelectorAll('tbody th button.link').length >= 10 && document.body.innerText.includes('</script><b>Table 1 S1</b>')`), 'all layouts are in the table and names stay text');
+  expect(await until(`${kInk} > 5000`), 'the 3-D view draws the layout');
+
+  const press = async (key) => {
+    await send('Input.dispatchKeyEvent', { type: 'keyDown', key, code: key, windowsVirtualKeyCode: key === 'ArrowRight' ? 39 : 37 });
+    await send('Input.dispatchKeyEvent', { type: 'keyUp', key, code: key });
+  };
+  await evaluate(`document.querySelector('#figure-pareto .chart svg').focus()`);
+  await press('ArrowRight');
+  await press('ArrowRight');
+  expect((await chosen()).startsWith('9 targets'), `the arrow keys go along the chart, also twice, not to ${await chosen()}`);
+  expect((await evaluate(`document.querySelector('.where').textContent`)).startsWith('pose 0 '), 'and leave the pose alone');
+  await evaluate(`document.activeElement.blur()`);
+  await press('ArrowRight');
+  expect((await evaluate(`document.querySelector('.where').textContent`)).startsWith('pose 1 '), 'elsewhere they step through the motion');
+
+  const at = await evaluate(`(() => { const r = document.querySelector('#figure-pareto .pick').getBoundingClientRect(); return [r.left + r.width / 2, r.top + r.height / 2]; })()`);
+  await send('Input.dispatchMouseEvent', { type: 'mousePressed', x: at[0], y: at[1], button: 'left', clickCount: 1 });
+  await send('Input.dispatchMouseEvent', { type: 'mouseReleased', x: at[0], y: at[1], button: 'left', clickCount: 1 });
+  expect(await until(`document.querySelector('.chosen h2').textContent.startsWith('4 targets')`), `a click into the chart chooses that layout, not ${await chosen()}`);
+  await evaluate(`[...document.querySelectorAll('button.sort')].find((b) => b.textContent.startsWith('worst error after')).click()`);
+  expect(await evaluate(`document.querySelector('.wide-table tbody th').textContent`) === '12 targets', 'a heading orders the table, the best first');
+  await evaluate(`[...document.querySelectorAll('.chosen button.link')][1].click()`);
+  expect((await chosen()).startsWith('12 targets'), 'what is given up leads to the layout that has it');
 }
 
 const program = findChromium();
@@ -85,11 +122,16 @@ if (!program) {
   process.exit(77);
 }
 const folder = mkdtempSync(join(tmpdir(), 'asterism-report-'));
-const file = join(folder, 'report.html');
-writeFileSync(file, pageWith(readFileSync(process.argv[2], 'utf8'), recording()));
+const template = readFileSync(process.argv[2], 'utf8');
+const fileWith = (name, data) => {
+  writeFileSync(join(folder, name), pageWith(template, data));
+  return join(folder, name);
+};
 const browser = await openBrowser(program);
 try {
-  await look(browser, file);
+  await lookAtRecording(browser, fileWith('report.html', recording()));
+  await lookAtLayouts(browser, fileWith('layouts.html', layouts()));
+  browser.problems.forEach((problem) => failures.push(problem));
 } finally {
   await browser.close();
   rmSync(folder, { recursive: true, force: true });

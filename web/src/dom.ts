@@ -15,6 +15,19 @@ export function h<Tag extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/// The same for drawings inside the page.
+export function svg<Tag extends keyof SVGElementTagNameMap>(
+  tag: Tag, attributes: Record<string, string | number | ((event: Event) => void)> = {}, ...children: Child[]
+): SVGElementTagNameMap[Tag] {
+  const element = document.createElementNS('http://www.w3.org/2000/svg', tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (typeof value === 'function') element.addEventListener(name.slice(2), value);
+    else element.setAttribute(name, String(value));
+  }
+  for (const child of children) if (child) element.append(child);
+  return element;
+}
+
 export function download(name: string, content: Blob): void {
   const link = h('a', { href: URL.createObjectURL(content), download: name });
   link.click();

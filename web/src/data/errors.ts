@@ -2,7 +2,8 @@
 import { kNormal95, lengthBound95 } from './bands';
 import { apply, motionOf, pointCovariance, rotationCovariance, sigmas, subtract, type Covariance } from './pose';
 import { conjugate, kDegPerRad, product, rotationVector } from './quaternion';
-import type { BodyTrack, PoseRow, Vec3 } from './report';
+import type { Vec3 } from './parts';
+import type { BodyTrack, PoseRow } from './report';
 import type { Component, Source } from './selection';
 import { largest, mean, present, quantile, rms, type Column } from './statistics';
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { conjugate, rotate, type Quaternion } from './quaternion';
-import type { MotionRow, PoseRow, Vec3 } from './report';
+import type { MotionRow, Vec3 } from './parts';
+import type { PoseRow } from './report';
 
 /// xx xy xz yy yz zz.
 export type Covariance = [number, number, number, number, number, number];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Vec3 } from './report';
+import type { Vec3 } from './parts';
 
 /// w x y z, unit.
 export type Quaternion = [number, number, number, number];

@@ -2,35 +2,39 @@
 export type Component = 'size' | 'x' | 'y' | 'z';
 export type Source = 'measured' | 'filtered';
 
-/// What the reader is looking at; every view shows the same.
-export interface Selection {
+/// Where the reader is along a plot's axis.
+export interface Place {
   frame: number;                    // index into the frames
+  range: [number, number] | null;   // of the axis shown; null = all
+}
+
+/// What the reader is looking at; every view shows the same.
+export interface Selection extends Place {
   body: number;
   component: Component;             // of the errors: size, or along one axis of the tracker
   source: Source;                   // which pose the 3-D view and the errors take
-  range: [number, number] | null;   // of time shown (s); null = all
 }
 
-export type Change = (selection: Selection, before: Selection) => void;
+export type Change<S> = (now: S, before: S) => void;
 
-export class Shared {
-  private listeners: Change[] = [];
+export class Shared<S extends Place = Selection> {
+  private listeners: Change<S>[] = [];
 
-  constructor(private state: Selection) {}
+  constructor(private state: S) {}
 
-  get now(): Selection {
+  get now(): S {
     return this.state;
   }
 
-  set(part: Partial<Selection>): void {
+  set(part: Partial<S>): void {
     const before = this.state;
     const after = { ...before, ...part };
-    if ((Object.keys(part) as (keyof Selection)[]).every((key) => before[key] === after[key])) return;
+    if ((Object.keys(part) as (keyof S)[]).every((key) => before[key] === after[key])) return;
     this.state = after;
     for (const listener of this.listeners) listener(after, before);
   }
 
-  watch(listener: Change): void {
+  watch(listener: Change<S>): void {
     this.listeners.push(listener);
   }
 }
@@ -47,8 +51,13 @@ export function nearestIndex(ordered: number[], wanted: number): number {
   return Math.abs(ordered[high] - wanted) < Math.abs(wanted - ordered[low]) ? high : low;
 }
 
+export interface Frames {
+  frame: number[];
+  time_s: number[];
+}
+
 /// Times when they rise from frame to frame, frame numbers or places otherwise: a plot's axis must rise.
-export function axisOf(frames: { frame: number[]; time_s: number[] }): { label: string; values: number[] } {
+export function axisOf(frames: Frames): { label: string; values: number[] } {
   const rises = (values: number[]) => values.every((value, i) => Number.isFinite(value) && (i === 0 || value > values[i - 1]));
   if (rises(frames.time_s)) return { label: 'time (s)', values: frames.time_s };
   if (rises(frames.frame)) return { label: 'frame', values: frames.frame };

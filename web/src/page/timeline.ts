@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 import { decimals } from '../data/format';
-import type { TrackingReport } from '../data/report';
-import type { Shared } from '../data/selection';
+import type { Frames, Place, Shared } from '../data/selection';
 import { h } from '../dom';
 
 const kSpeeds = [0.1, 0.25, 0.5, 1, 2, 5, 10];
 
 /// Play, step and slide through the frames; the keys work anywhere on the page.
-export function timeline(report: TrackingReport, shared: Shared): HTMLElement {
-  const { frame, time_s } = report.frames;
+export function timeline<S extends Place>({ frame, time_s }: Frames, shared: Shared<S>, word = 'frame'): HTMLElement {
   const last = frame.length - 1;
+  const go = (to: number) => shared.set({ frame: to } as Partial<S>);
   const step = (by: number) => {
     stop();
-    shared.set({ frame: Math.min(last, Math.max(0, shared.now.frame + by)) });
+    go(Math.min(last, Math.max(0, shared.now.frame + by)));
   };
   const play = h('button', { type: 'button', class: 'play', 'aria-label': 'Play', onclick: () => (playing ? stop() : start()) }, '▶');
-  const slider = h('input', { type: 'range', min: 0, max: last, value: 0, step: 1, 'aria-label': 'Frame' });
+  const slider = h('input', { type: 'range', min: 0, max: last, value: 0, step: 1, 'aria-label': word });
   const speed = h('select', { 'aria-label': 'Speed', title: 'Speed' }, ...kSpeeds.map((s) => h('option', { value: s, selected: s === 1 }, `${s} ×`)));
   const where = h('output', { class: 'where' });
 
@@ -30,12 +29,12 @@ export function timeline(report: TrackingReport, shared: Shared): HTMLElement {
     let next = shared.now.frame;
     while (next < last && time_s[next + 1] <= time) ++next;
     shownFrame = next;
-    shared.set({ frame: next });
+    go(next);
     if (next === last) stop();
     else requestAnimationFrame(tick);
   };
   const start = () => {
-    if (shared.now.frame === last) shared.set({ frame: 0 });
+    if (shared.now.frame === last) go(0);
     playing = true;
     shownFrame = -1;
     play.textContent = '❚❚';
@@ -50,11 +49,11 @@ export function timeline(report: TrackingReport, shared: Shared): HTMLElement {
   speed.addEventListener('change', () => (shownFrame = -1));
   slider.addEventListener('input', () => {
     stop();
-    shared.set({ frame: Number(slider.value) });
+    go(Number(slider.value));
   });
   document.addEventListener('keydown', (event) => {
     const at = event.target as HTMLElement;
-    if (event.ctrlKey || event.metaKey || event.altKey || at.tagName === 'SELECT') return;
+    if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey || at.tagName === 'SELECT') return;
     if (event.key === ' ' && (at.tagName === 'BUTTON' || at.tagName === 'SUMMARY')) return;
     const moves: Record<string, () => void> = {
       ArrowLeft: () => step(event.shiftKey ? -10 : -1), ArrowRight: () => step(event.shiftKey ? 10 : 1),
@@ -70,12 +69,12 @@ export function timeline(report: TrackingReport, shared: Shared): HTMLElement {
   const show = () => {
     const i = shared.now.frame;
     slider.value = String(i);
-    const words = `frame ${frame[i]} · ${decimals(time_s[i], 3)} s`;
+    const words = `${word} ${frame[i]} · ${decimals(time_s[i], 3)} s`;
     slider.setAttribute('aria-valuetext', words);
     where.textContent = words;
   };
   shared.watch((after, before) => after.frame !== before.frame && show());
   show();
   const button = (text: string, label: string, by: number) => h('button', { type: 'button', 'aria-label': label, title: label, onclick: () => step(by) }, text);
-  return h('div', { class: 'timeline' }, play, button('‹', 'One frame back (arrow left)', -1), button('›', 'One frame on (arrow right)', 1), slider, where, speed);
+  return h('div', { class: 'timeline' }, play, button('‹', `One ${word} back (arrow left)`, -1), button('›', `One ${word} on (arrow right)`, 1), slider, where, speed);
 }

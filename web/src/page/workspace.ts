@@ -10,6 +10,7 @@ import { statusStrip } from '../plots/strip';
 import { scalesOf, type Scales } from '../scene/scales';
 import { sceneView, type Layer, type SceneView, type ViewPoint } from '../scene/scene';
 import { readout } from './readout';
+import { spacePanel, type SpacePanel } from './space';
 import { timeline } from './timeline';
 
 const kLayers: Layer[] = ['fields', 'trajectory', 'ellipsoids', 'sight lines', 'names'];
@@ -23,7 +24,7 @@ export interface Workspace {
 
 /// The 3-D view on the left, the linked plots on the right.
 export function workspace(report: TrackingReport, shared: Shared): Workspace {
-  const space = spacePanel(report, shared);
+  const space = cellPanel(report, shared);
   const plots = plotPanel(report, shared);
   return {
     element: h('div', { class: 'workspace', id: 'cell' }, space.element, plots.element),
@@ -35,43 +36,17 @@ export function workspace(report: TrackingReport, shared: Shared): Workspace {
   };
 }
 
-function spacePanel(report: TrackingReport, shared: Shared): { element: HTMLElement; refresh: () => void; still: () => void } {
+function cellPanel(report: TrackingReport, shared: Shared): SpacePanel<SceneView> {
   const scales = scalesOf(report);
-  let scene: SceneView | null = null;
-  try {
-    scene = sceneView(report, scales, shared.now);
-  } catch {
-    // No WebGL: numbers and plots still tell everything.
-  }
-  const toggles = kLayers.map((layer) => {
-    const box = h('input', { type: 'checkbox', checked: layer !== 'sight lines' });
-    box.addEventListener('change', () => scene?.setLayer(layer, box.checked));
-    return h('label', {}, box, layer === 'fields' ? 'fields of view' : layer);
+  const panel = spacePanel<Layer, ViewPoint, SceneView>(() => sceneView(report, scales, shared.now), {
+    words: 'Cell in motion', views: kViews,
+    layers: kLayers.map((layer) => ({ layer, text: layer === 'fields' ? 'fields of view' : layer, shown: layer !== 'sight lines' })),
+    below: [sceneKey(scales), timeline(report.frames, shared), readout(report, shared)],
   });
-  const views = kViews.map((view) => h('button', { type: 'button', onclick: () => scene?.look(view) }, view));
-  const save = h('button', { type: 'button', title: 'Save the view as an image', onclick: async () => {
-    const blob = await scene?.png();
-    if (blob) download('view.png', blob);
-  } }, 'PNG');
-  const element = h('section', { class: 'panel space', 'aria-label': 'Cell in motion' },
-    h('div', { class: 'bar-row' },
-      h('div', { class: 'choice', role: 'group', 'aria-label': 'Look from' }, h('span', { class: 'choice-label' }, 'View'), ...views),
-      h('span', { class: 'exports' }, save)),
-    scene ? scene.element : h('p', { class: 'scene none' }, 'This browser draws no WebGL, so there is no 3-D view; the plots and tables below are complete.'),
-    sceneKey(scales),
-    h('div', { class: 'layers', role: 'group', 'aria-label': 'Shown in the view' }, ...toggles),
-    timeline(report, shared),
-    readout(report, shared));
-  if (scene) {
-    const view = scene;
-    shared.watch((now) => view.show(now));
-    requestAnimationFrame(() => {
-      view.refresh();
-      view.look('cell');
-      view.show(shared.now);
-    });
-  }
-  return { element, refresh: () => scene?.refresh(), still: () => scene?.still() };
+  const show = () => panel.scene?.show(shared.now);
+  shared.watch(show);
+  requestAnimationFrame(show);
+  return panel;
 }
 
 /// What the marks mean and by how much they are exaggerated.

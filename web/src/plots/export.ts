@@ -21,12 +21,27 @@ export function exportButtons(figure: Figure): HTMLElement {
     button('PNG', 'Save the figure as an image', () => savePng(`${figure.id}.png`, svg())));
 }
 
+/// The same for a drawing inside the page: its colours follow the theme there, and are those of print here.
+export function drawingButtons(name: string, drawing: () => SVGSVGElement | null): HTMLElement {
+  const text = () => {
+    const copy = drawing()?.cloneNode(true) as SVGSVGElement | undefined;
+    copy?.setAttribute('xmlns', 'http://www.w3.org/2000/svg');
+    return (copy?.outerHTML ?? '').replace(/var\((--[\w-]+)\)/g, (_, property: string) => colourOnWhite(property));
+  };
+  const button = (label: string, title: string, save: () => void) => h('button', { type: 'button', title, onclick: save }, label);
+  return h('span', { class: 'exports', role: 'group', 'aria-label': `Save ${name}` },
+    button('SVG', 'Save the figure as vector graphics', () => download(`${name}.svg`, new Blob([text()], { type: 'image/svg+xml' }))),
+    button('PNG', 'Save the figure as an image', () => savePng(`${name}.png`, text())));
+}
+
 function savePng(name: string, svg: string): void {
   const image = new Image();
   image.onload = () => {
     const canvas = h('canvas', { width: image.width * 2, height: image.height * 2 });
     const context = canvas.getContext('2d')!;
     context.scale(2, 2);
+    context.fillStyle = '#fff';
+    context.fillRect(0, 0, image.width, image.height);
     context.drawImage(image, 0, 0);
     canvas.toBlob((blob) => blob && download(name, blob));
   };

@@ -33,6 +33,7 @@ export interface Figure {
   note: string;
   fromZero: boolean;
   digits: number;
+  group?: string;  // figures of one group share their cursor
 }
 
 const kComponentWords: Record<Component, string> = { size: 'size', x: 'along x', y: 'along y', z: 'along z' };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import uPlot from 'uplot';
 import { colour, h } from '../dom';
-import { nearestIndex, type Shared } from '../data/selection';
+import { nearestIndex, type Place, type Shared } from '../data/selection';
 import { valueAt, type Figure } from './figures';
 import { exportButtons } from './export';
 import { rangeOf } from './ranges';
@@ -19,7 +19,7 @@ export interface PlotView {
 }
 
 /// One figure: title with units, values at the current frame, the plot, what it says, exports.
-export function plotView(figure: Figure, shared: Shared): PlotView {
+export function plotView<S extends Place>(figure: Figure, shared: Shared<S>): PlotView {
   const values = figure.traces.map((trace) => {
     const value = h('b');
     return { trace, value, item: h('span', { class: `key ${trace.form}${trace.dashed ? ' dashed' : ''}`, style: `--key: var(${trace.colour})` }, h('i'), trace.label, ' ', value) };
@@ -74,7 +74,7 @@ function dataOf(figure: Figure): uPlot.AlignedData {
   return [figure.axis.values, ...figure.traces.map((trace) => trace.values), ...figure.bands.flatMap((band) => [band.high, band.low])];
 }
 
-function optionsOf(figure: Figure, shared: Shared): uPlot.Options {
+function optionsOf<S extends Place>(figure: Figure, shared: Shared<S>): uPlot.Options {
   const all = figure.axis.values;
   const first = figure.traces.length + 1;
   const axis: uPlot.Axis = {
@@ -86,7 +86,7 @@ function optionsOf(figure: Figure, shared: Shared): uPlot.Options {
     legend: { show: false },
     cursor: {
       y: false, drag: { x: true, y: false, setScale: false }, points: { show: false },
-      sync: { key: 'frames' },
+      sync: { key: figure.group ?? 'frames' },
     },
     select: { show: true, left: 0, top: 0, width: 0, height: 0 },
     scales: { x: { time: false }, y: { range: (_, low, high) => rangeOf(low, high, figure.fromZero) } },
@@ -113,14 +113,14 @@ function optionsOf(figure: Figure, shared: Shared): uPlot.Options {
         // Synced plots get the same event; only the one under the pointer speaks.
         const { left } = plot.cursor;
         if (left === undefined || left === null || left < 0 || !plot.over.matches(':hover')) return;
-        shared.set({ frame: nearestIndex(all, plot.posToVal(left, 'x')) });
+        shared.set({ frame: nearestIndex(all, plot.posToVal(left, 'x')) } as Partial<S>);
       }],
       setSelect: [(plot) => {
         if (plot.select.width < 6) return;
-        shared.set({ range: [plot.posToVal(plot.select.left, 'x'), plot.posToVal(plot.select.left + plot.select.width, 'x')] });
+        shared.set({ range: [plot.posToVal(plot.select.left, 'x'), plot.posToVal(plot.select.left + plot.select.width, 'x')] } as Partial<S>);
         plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
       }],
-      ready: [(plot) => plot.over.addEventListener('dblclick', () => shared.set({ range: null }))],
+      ready: [(plot) => plot.over.addEventListener('dblclick', () => shared.set({ range: null } as Partial<S>))],
     },
   };
 }

@@ -117,7 +117,7 @@ function text(x: number, y: number, content: string, attributes = ''): string {
   return `<text x="${x.toFixed(2)}" y="${y.toFixed(2)}" ${attributes}>${escaped(content)}</text>`;
 }
 
-function tickText(value: number): string {
+export function tickText(value: number): string {
   return String(Number(value.toPrecision(6))).replace('-', '\u2212');
 }
 

@@ -2,32 +2,21 @@
 import * as THREE from 'three';
 import { kEllipsoid95 } from '../data/bands';
 import { posesOf, statusOf } from '../data/errors';
-import { apply, cholesky, motionOf, pointCovariance, type Motion } from '../data/pose';
-import type { BodyTrack, Vec3 } from '../data/report';
+import { apply, cholesky, motionOf, pointCovariance } from '../data/pose';
+import type { Vec3 } from '../data/parts';
+import type { BodyTrack } from '../data/report';
 import type { Source } from '../data/selection';
 import { bodyColour } from '../plots/figures';
 import { segments, type Inks } from './ink';
 import type { Label } from './labels';
+import { kSeen, placeAt, pointMark, seenBy, targetMarks } from './marks';
 import { constellation, type Scales } from './scales';
-
-export type Seen = 'both' | 'one' | 'hidden';
-
-export function seenAt(body: BodyTrack, target: number, frame: number): Seen {
-  const code = body.sightings[target]?.seen[frame];
-  return code === '3' ? 'both' : code === '1' || code === '2' ? 'one' : 'hidden';
-}
 
 export interface BodyView {
   group: THREE.Object3D;
   ellipsoid: THREE.Object3D;
   show: (frame: number, source: Source) => void;
   labels: (frame: number, source: Source, active: boolean) => Label[];
-}
-
-interface TargetMarks {
-  both: THREE.Object3D;
-  one: THREE.Object3D;
-  hidden: THREE.Object3D;
 }
 
 /// A body as its constellation. Measured: full lines, discs by how they were seen. Predicted: dashed, every
@@ -56,13 +45,13 @@ export function bodyView(body: BodyTrack, index: number, scales: Scales, inks: I
     group.visible = row !== null && row !== undefined;
     if (!row) return;
     const motion = motionOf(row);
-    place(moving, motion);
+    placeAt(moving, motion);
     const predicted = statusOf(body, source)[frame] === 'R';
     measuredLines.visible = full.visible = !predicted;
     predictedLines.visible = mesh.visible = predicted;
     marks.forEach((mark, i) => {
-      const seen = predicted ? 'hidden' : seenAt(body, i, frame);
-      for (const kind of ['both', 'one', 'hidden'] as const) mark[kind].visible = kind === seen;
+      const seen = predicted ? 'hidden' : seenBy(body.sightings[i]?.seen[frame]);
+      for (const kind of kSeen) mark[kind].visible = kind === seen;
     });
     const [a, b, c, d, e, f] = cholesky(pointCovariance(row)).map((v) => v * kEllipsoid95 * scales.ellipsoids);
     const [x, y, z] = apply(motion, body.point.position_mm);
@@ -83,43 +72,6 @@ export function bodyView(body: BodyTrack, index: number, scales: Scales, inks: I
     return [...own, ...body.targets.map((target): Label => ({ text: target.id, at: apply(motion, target.position_mm), colour: '--muted' }))];
   };
   return { group, ellipsoid, show, labels };
-}
-
-function place(object: THREE.Object3D, { translation, rotation: [w, x, y, z] }: Motion): void {
-  object.position.set(...translation);
-  object.quaternion.set(x, y, z, w);
-}
-
-function targetMarks(normal: Vec3 | undefined, radius: number, at: Vec3, name: string, inks: Inks, into: THREE.Group): TargetMarks {
-  const disc = new THREE.CircleGeometry(radius, 32);
-  const ring = new THREE.RingGeometry(radius * 0.74, radius, 32);
-  const dot = new THREE.CircleGeometry(radius * 0.5, 24);
-  const facing = normal ?? [0, 0, -1];
-  const turn = new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), new THREE.Vector3(...facing));
-  const pin: Vec3[] = [[0, 0, 0], [0, 0, radius * 2.2]];
-  const make = (colour: string, ...shapes: THREE.BufferGeometry[]) => {
-    const group = new THREE.Group();
-    for (const shape of shapes) group.add(new THREE.Mesh(shape, inks.flat(colour)));
-    if (normal) group.add(segments(pin, inks.line(colour, 1.6)));
-    group.position.set(...at);
-    group.quaternion.copy(turn);
-    into.add(group);
-    return group;
-  };
-  return { both: make(name, disc), one: make(name, ring, dot), hidden: make('--hidden', ring) };
-}
-
-/// A small cross where accuracy is told.
-function pointMark(at: Vec3, size: number, inks: Inks): THREE.Object3D {
-  const points: Vec3[] = [];
-  for (let axis = 0; axis < 3; ++axis) {
-    for (const sign of [-1, 1]) {
-      const end: Vec3 = [...at];
-      end[axis] += sign * size;
-      points.push(end);
-    }
-  }
-  return segments(points, inks.line('--ink', 1.2));
 }
 
 /// From the cameras to each target they saw, in the tracker.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Vec3 } from '../data/report';
+import type { Vec3 } from '../data/parts';
 
 function dot(a: Vec3, b: Vec3): number {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

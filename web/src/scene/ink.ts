@@ -4,7 +4,7 @@ import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 import { colour } from '../dom';
-import type { Vec3 } from '../data/report';
+import type { Vec3 } from '../data/parts';
 
 /// Materials that follow the page's theme: each is told the style sheet's name of its colour.
 export class Inks {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import * as THREE from 'three';
 import { colour } from '../dom';
-import type { Vec3 } from '../data/report';
+import type { Vec3 } from '../data/parts';
 
 export interface Label {
   text: string;

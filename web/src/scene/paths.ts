@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { posesOf, statusOf } from '../data/errors';
 import { apply, motionOf } from '../data/pose';
-import type { BodyTrack, Vec3 } from '../data/report';
+import type { Vec3 } from '../data/parts';
+import type { BodyTrack } from '../data/report';
 import type { Source } from '../data/selection';
 import { isMeasured } from '../data/status';
 

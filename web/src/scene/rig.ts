@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 import * as THREE from 'three';
 import { apply, inverse, motionOf } from '../data/pose';
-import type { Lens, TrackingReport, Vec3 } from '../data/report';
+import type { Lens, Rig, Vec3 } from '../data/parts';
 import { segments, type Inks } from './ink';
 import type { Label } from './labels';
-import type { Scales } from './scales';
+import type { RoomScales } from './scales';
 
 /// Both cameras as pyramids, what they see (without distortion), the tracker's axes and the grid.
-export function rigView(report: TrackingReport, scales: Scales, inks: Inks): { group: THREE.Group; fields: THREE.Object3D; labels: Label[] } {
+export function rigView(rig: Rig, scales: RoomScales, inks: Inks): { group: THREE.Group; fields: THREE.Object3D; labels: Label[] } {
   const group = new THREE.Group();
   const fields = new THREE.Group();
   const labels: Label[] = [];
@@ -16,8 +16,8 @@ export function rigView(report: TrackingReport, scales: Scales, inks: Inks): { g
   const faint = inks.line('--muted', 1, 0.35);
   const glass = inks.flat('--muted', 0.16);
   const cameras: [string, Lens, (p: Vec3) => Vec3][] = [
-    ['left', report.rig.left, (p) => p],
-    ['right', report.rig.right, (p) => apply(inverse(motionOf(report.rig.right_from_left)), p)],
+    ['left', rig.left, (p) => p],
+    ['right', rig.right, (p) => apply(inverse(motionOf(rig.right_from_left)), p)],
   ];
   for (const [name, lens, toTracker] of cameras) {
     const eye = toTracker([0, 0, 0]);
@@ -59,7 +59,7 @@ function triad(length: number, inks: Inks, labels: Label[]): THREE.Group {
 }
 
 /// Horizontal for an upright tracker, below everything that was seen.
-function grid({ grid: { step, y }, middle, radius }: Scales, inks: Inks): THREE.Object3D {
+function grid({ grid: { step, y }, middle, radius }: RoomScales, inks: Inks): THREE.Object3D {
   const reach = Math.ceil((radius * 0.8) / step) * step;
   const [cx, cz] = [Math.round(middle[0] / step) * step, Math.round((middle[2] * 0.62) / step) * step];
   const points: Vec3[] = [];

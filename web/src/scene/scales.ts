@@ -2,24 +2,27 @@
 import { kEllipsoid95 } from '../data/bands';
 import { roundStep } from '../data/format';
 import { add, apply, inverse, motionOf, pointCovariance, subtract } from '../data/pose';
-import type { MotionRow, TrackingReport, Vec3 } from '../data/report';
+import type { MotionRow, Rig, Target, Vec3 } from '../data/parts';
+import type { TrackingReport } from '../data/report';
 import { quantile } from '../data/statistics';
 
 /// How large things are and by how much the drawing exaggerates; all of it is stated under the view.
-export interface Scales {
+export interface RoomScales {
   places: Vec3[];                            // where targets were, at about a hundred moments
   middle: Vec3;                              // of those
   radius: number;                            // of rig and bodies together, mm
-  span: number;                              // of the largest body, mm
   right: Vec3;                               // the right camera's place in the tracker
   far: number;                               // depth to which the fields of view are drawn, mm
   grid: { step: number; y: number };
+}
+
+export interface Scales extends RoomScales {
+  span: number;                              // of the largest body, mm
   discs: number;                             // enlargement of the targets
   ellipsoids: number;                        // enlargement of the 95 % ellipsoids
 }
 
 export function scalesOf(report: TrackingReport): Scales {
-  const right = inverse(motionOf(report.rig.right_from_left)).translation;
   const places: Vec3[] = [];
   let span = 0;
   const sizes: number[] = [];
@@ -35,24 +38,32 @@ export function scalesOf(report: TrackingReport): Scales {
     }
   }
   if (places.length === 0) places.push([-500, -500, 2000], [500, 500, 2500]);
-  const bodies = ball(places);
-  const cell = ball([...places, [0, 0, 0], right]);
-  span = span || bodies.radius;
+  span = span || ball(places).radius;
   const largest = quantile(sizes, 0.5) ?? 0;
   return {
-    places, middle: bodies.centre, radius: cell.radius, span, right,
-    far: Math.max(...places.map((p) => p[2])) * 1.08,
-    grid: { step: roundStep(cell.radius / 3), y: Math.max(...places.map((p) => p[1])) + 0.25 * span },
-    discs: discScale(report, span),
+    ...roomScales(report.rig, places, span), span,
+    discs: discScale(report.bodies.flatMap((body) => body.targets), span),
     ellipsoids: largest > 0 ? Math.max(1, roundStep((0.2 * span) / largest)) : 1,
   };
 }
 
-/// Targets of a few millimetres on a body of a metre would be specks: enlarged up to ten times.
-function discScale(report: TrackingReport, span: number): number {
-  const diameters = report.bodies.flatMap((body) => body.targets.map((target) => target.diameter_mm ?? 0)).filter((d) => d > 0);
+/// For the tracker before the places that matter; the grid lies a quarter of `span` below them.
+export function roomScales(rig: Rig, places: Vec3[], span: number): RoomScales {
+  const right = inverse(motionOf(rig.right_from_left)).translation;
+  const cell = ball([...places, [0, 0, 0], right]);
+  return {
+    places, right, middle: ball(places).centre, radius: cell.radius,
+    far: Math.max(...places.map((p) => p[2])) * 1.08,
+    grid: { step: roundStep(cell.radius / 3), y: Math.max(...places.map((p) => p[1])) + 0.25 * span },
+  };
+}
+
+/// Targets of a few millimetres on a body of a metre would be specks: enlarged up to ten times, to a share of
+/// the span.
+export function discScale(targets: Target[], span: number, share = 0.07): number {
+  const diameters = targets.map((target) => target.diameter_mm ?? 0).filter((d) => d > 0);
   const middle = quantile(diameters, 0.5);
-  return middle ? Math.min(10, Math.max(1, Math.round((0.07 * span) / middle))) : 1;
+  return middle ? Math.min(10, Math.max(1, Math.round((share * span) / middle))) : 1;
 }
 
 function ball(points: Vec3[]): { centre: Vec3; radius: number } {

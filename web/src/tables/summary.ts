@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 import { h } from '../dom';
-import { remarksOf } from '../data/remarks';
-import type { TrackingReport } from '../data/report';
+import type { SummaryRow } from '../data/parts';
 
 const kVerdictWords = { plain: '', good: 'good', attention: 'look at this', bad: 'bad' } as const;
 
-/// What was measured and how sure, then what went wrong: the first thing a reader sees.
-export function summarySection(report: TrackingReport): HTMLElement {
-  const rows = report.summary.map((row) => h('tr', { class: row.verdict },
+/// What was found and how sure, then what to beware of: the first thing a reader sees. `nothing` is said
+/// where there are no remarks.
+export function summarySection(summary: SummaryRow[], remarks: string[], title: string, nothing: string): HTMLElement {
+  const rows = summary.map((row) => h('tr', { class: row.verdict },
     h('th', { scope: 'row' }, row.label),
     h('td', { class: 'number' }, row.value),
     h('td', { class: 'unit' }, row.unit),
     h('td', {}, kVerdictWords[row.verdict] && h('span', { class: 'verdict' }, kVerdictWords[row.verdict]), row.note)));
-  const words = remarksOf(report);
-  const remarks = words.length > 0
-    ? h('ul', {}, ...words.map((remark) => h('li', {}, remark)))
-    : h('p', {}, report.frames.frame.length > 0 ? 'Nothing: every body was OK in every frame.' : 'There are no frames.');
   return h('section', { 'aria-labelledby': 'summary', class: 'summary' },
     h('div', { class: 'panel' }, h('h2', { id: 'summary' }, 'Summary'),
       rows.length > 0 ? h('table', { class: 'summary-table' },
         h('thead', { class: 'unseen' }, h('tr', {}, ...['Quantity', 'Value', 'Unit', 'Meaning'].map((text) => h('th', { scope: 'col' }, text)))),
         h('tbody', {}, ...rows)) : h('p', {}, 'No summary was given.')),
-    h('div', { class: 'panel remarks' }, h('h2', {}, 'What went wrong'), remarks));
+    h('div', { class: 'panel remarks' }, h('h2', {}, title),
+      remarks.length > 0 ? h('ul', {}, ...remarks.map((remark) => h('li', {}, remark))) : h('p', {}, nothing)));
 }

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+import * as THREE from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { colour, h } from '../dom';
+import type { Vec3 } from '../data/parts';
+import { standingPoint } from './fit';
+import { Inks } from './ink';
+import { drawLabels, type Label } from './labels';
+
+/// What a page does with a 3-D view, whatever it shows.
+export interface Stage {
+  element: HTMLElement;
+  scene: THREE.Scene;
+  inks: Inks;
+  request: () => void;                                         // draw when the browser next does
+  stand: (target: Vec3, position: Vec3) => void;
+  see: (points: Vec3[], direction: Vec3) => void;              // all points, looking against the direction
+  refresh: () => void;                                         // after a change of theme or size
+  still: () => void;                                           // before printing: browsers print no WebGL
+  png: () => Promise<Blob | null>;
+}
+
+const kFieldOfView = 32;
+const kMargin = 0.84;  // of the view is filled
+
+/// A view of things in the tracker's frame (x right, y down, z forward), drawn only when something changed.
+export function stageOf(words: string, radius: number, labels: () => Label[]): Stage {
+  const drawing = h('canvas', { role: 'img', tabindex: 0, 'aria-label': `${words}. Drag turns, wheel zooms, right drag moves; the arrow keys step through the frames.` });
+  const names = h('canvas', { class: 'names', 'aria-hidden': 'true' });
+  const printed = h('img', { class: 'printed', alt: words });
+  const element = h('div', { class: 'scene' }, drawing, names, printed);
+  const renderer = new THREE.WebGLRenderer({ canvas: drawing, antialias: true, alpha: true, preserveDrawingBuffer: true });
+  const scene = new THREE.Scene();
+  const camera = new THREE.PerspectiveCamera(kFieldOfView, 1, radius / 300, radius * 30);
+  camera.up.set(0, -1, 0);
+  const controls = new OrbitControls(camera, drawing);
+  controls.zoomSpeed = 1.4;
+  const inks = new Inks();
+  const lamp = new THREE.DirectionalLight(0xffffff, 2.2);
+  scene.add(new THREE.HemisphereLight(0xffffff, 0xb0b8c0, 1.6), lamp);
+
+  let waiting = false;
+  const draw = () => {
+    waiting = false;
+    lamp.position.copy(camera.position);
+    renderer.render(scene, camera);
+    drawLabels(names, labels(), camera);
+  };
+  const request = () => {
+    if (waiting) return;
+    waiting = true;
+    requestAnimationFrame(draw);
+  };
+  const refresh = () => {
+    const [width, height] = [element.clientWidth, element.clientHeight];
+    if (width === 0 || height === 0) return;
+    const ratio = Math.min(2, window.devicePixelRatio || 1);
+    renderer.setPixelRatio(ratio);
+    renderer.setSize(width, height, false);
+    names.width = width * (window.devicePixelRatio || 1);
+    names.height = height * (window.devicePixelRatio || 1);
+    camera.aspect = width / height;
+    camera.updateProjectionMatrix();
+    inks.refresh(width, height);
+    draw();
+  };
+  const stand = (target: Vec3, position: Vec3) => {
+    controls.target.set(...target);
+    camera.position.set(...position);
+    controls.update();
+    request();
+  };
+  const see = (points: Vec3[], direction: Vec3) => {
+    const up = kMargin * Math.tan((kFieldOfView * Math.PI) / 360);
+    const { target, position } = standingPoint(points, direction, up * camera.aspect, up);
+    stand(target, position);
+  };
+  const composed = (): HTMLCanvasElement => {
+    draw();
+    const both = h('canvas', { width: drawing.width, height: drawing.height });
+    const context = both.getContext('2d')!;
+    context.fillStyle = colour('--panel');
+    context.fillRect(0, 0, both.width, both.height);
+    context.drawImage(drawing, 0, 0);
+    context.drawImage(names, 0, 0, both.width, both.height);
+    return both;
+  };
+  controls.addEventListener('change', request);
+  new ResizeObserver(refresh).observe(element);
+  return {
+    element, scene, inks, request, stand, see, refresh,
+    still: () => {
+      printed.src = composed().toDataURL();
+    },
+    png: () => new Promise((resolve) => composed().toBlob(resolve)),
+  };
+}
