@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "asterism/report/tracking_report.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "asterism/core/output_file.hpp"
 #include "asterism/core/result.hpp"
 #include "asterism/report/page.hpp"
+#include "asterism/report/page_json.hpp"
 #include "asterism/report/sightings.hpp"
 
 namespace asterism {
@@ -18,34 +16,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Fewer digits than a double holds, more than any measurement here is worth: a third of the file's size.
-Json decimals(double value, int places) {
-  if (!std::isfinite(value)) return nullptr;
-  return std::strtod(fmt::format("{:.{}f}", value, places).c_str(), nullptr);
-}
-
-Json digits(double value, int count) {
-  if (!std::isfinite(value)) return nullptr;
-  return std::strtod(fmt::format("{:.{}g}", value, count).c_str(), nullptr);
-}
-
-Json of(const Vec3& v, int places = 5) {
-  return {decimals(v.x(), places), decimals(v.y(), places), decimals(v.z(), places)};
-}
-
-void append_motion(Json& row, const RigidMotion& motion) {
-  for (const double value : motion.translation) row.push_back(decimals(value, 5));
-  const Quaternion& q = motion.rotation;
-  for (const double value : {q.w(), q.x(), q.y(), q.z()}) row.push_back(decimals(value, 9));
-}
-
 void append_upper(Json& row, const Mat3& covariance) {
   for (int i = 0; i < 3; ++i)
     for (int j = i; j < 3; ++j) row.push_back(digits(covariance(i, j), 5));
-}
-
-bool is_finite(const RigidMotion& motion) {
-  return motion.translation.allFinite() && motion.rotation.coeffs().allFinite();
 }
 
 /// x y z, w x y z, covariance of `in_body` in the tracker (xx xy xz yy yz zz, mm²), of rotation (rad²).
@@ -72,28 +45,6 @@ const BodyPose* pose_of(const std::vector<BodyPose>& poses, int body) {
   for (const BodyPose& pose : poses)
     if (pose.body == body) return &pose;
   return nullptr;
-}
-
-Json of_lens(const Lens& lens) {
-  Json coefficients = Json::array();
-  for (int i = 0; i < lens.coefficients; ++i)
-    coefficients.push_back(digits(lens.distortion[static_cast<std::size_t>(i)], 9));
-  return {{"fx", digits(lens.fx, 9)},  {"fy", digits(lens.fy, 9)},   {"skew", digits(lens.skew, 9)},
-          {"cx", digits(lens.cx, 9)},  {"cy", digits(lens.cy, 9)},   {"distortion", coefficients},
-          {"width_px", lens.width_px}, {"height_px", lens.height_px}};
-}
-
-Json of_rig(const StereoRig& rig) {
-  Json motion = Json::array();
-  append_motion(motion, rig.right_from_left);
-  return {{"left", of_lens(rig.left)}, {"right", of_lens(rig.right)}, {"right_from_left", motion}};
-}
-
-Json of_target(const Target& target) {
-  Json json = {{"id", target.id}, {"position_mm", of(target.position)}};
-  if (target.normal) json["normal"] = of(*target.normal, 6);
-  if (target.diameter_mm) json["diameter_mm"] = digits(*target.diameter_mm, 6);
-  return json;
 }
 
 NamedPoint error_point(const TrackingReport& report, std::size_t body) {
@@ -138,7 +89,7 @@ Json of_body(const TrackingReport& report, std::size_t body) {
   const int index = static_cast<int>(body);
   const NamedPoint point = error_point(report, body);
   Json targets = Json::array();
-  for (const Target& target : report.bodies[body].targets) targets.push_back(of_target(target));
+  for (const Target& target : report.bodies[body].targets) targets.push_back(json_of_target(target));
 
   Json measured = Json::array(), filtered = Json::array(), used = Json::array(), rms = Json::array();
   std::string measured_status, filtered_status;
@@ -156,7 +107,7 @@ Json of_body(const TrackingReport& report, std::size_t body) {
   }
   Json json = {{"name", report.bodies[body].name},
                {"targets", targets},
-               {"point", {{"name", point.name}, {"position_mm", of(point.in_body)}}},
+               {"point", {{"name", point.name}, {"position_mm", json_of(point.in_body)}}},
                {"status", measured_status},
                {"measured", measured},
                {"targets_used", used},
@@ -172,26 +123,6 @@ Json of_body(const TrackingReport& report, std::size_t body) {
     json["truth"] = truth;
   }
   return json;
-}
-
-Json of_summary(const std::vector<SummaryRow>& rows) {
-  constexpr std::array<const char*, 4> kVerdicts = {"plain", "good", "attention", "bad"};
-  Json json = Json::array();
-  for (const SummaryRow& row : rows) {
-    json.push_back({{"label", row.label},
-                    {"value", row.value},
-                    {"unit", row.unit},
-                    {"note", row.note},
-                    {"verdict", kVerdicts.at(static_cast<std::size_t>(row.verdict))}});
-  }
-  return json;
-}
-
-Json of_options(const std::string& text) {
-  if (text.empty()) return nullptr;
-  Json options = Json::parse(text, nullptr, false);
-  require(!options.is_discarded(), "a report's options are JSON");
-  return options;
 }
 
 }  // namespace
@@ -214,12 +145,12 @@ std::string tracking_report_json(const TrackingReport& report) {
       {"schema", "asterism-tracking-report/1"},
       {"title", report.title},
       {"subtitle", report.subtitle},
-      {"summary", of_summary(report.summary)},
+      {"summary", json_of_summary(report.summary)},
       {"remarks", report.remarks},
-      {"rig", of_rig(report.rig)},
+      {"rig", json_of_rig(report.rig)},
       {"frames", {{"frame", frame}, {"time_s", time}, {"centres_left", left}, {"centres_right", right}}},
       {"bodies", bodies},
-      {"options", of_options(report.options_json)}};
+      {"options", json_of_stored(report.options_json)}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -9,20 +9,9 @@
 #include "asterism/camera/stereo_rig.hpp"
 #include "asterism/cell/body.hpp"
 #include "asterism/measurement/frame.hpp"
+#include "asterism/report/summary_row.hpp"
 
 namespace asterism {
-
-/// How a summary row is marked: in words and colour.
-enum class Verdict { Plain, Good, Attention, Bad };
-
-/// One line of the table that the reader sees first.
-struct SummaryRow {
-  std::string label;  // "Translation error, platform"
-  std::string value;  // "0.0048", formatted by who knows what its digits are worth
-  std::string unit;   // "mm RMS"
-  std::string note;   // what it means, against what
-  Verdict verdict = Verdict::Plain;
-};
 
 /// A point of a body at which accuracy is told: the lever arm matters.
 struct NamedPoint {
