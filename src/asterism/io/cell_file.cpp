@@ -9,6 +9,8 @@
 #include "asterism/core/result.hpp"
 #include "asterism/io/builtin_cells.hpp"
 #include "asterism/io/cell_keys.hpp"
+#include "asterism/io/cell_layout.hpp"
+#include "asterism/io/cell_parts.hpp"
 #include "asterism/io/cell_section.hpp"
 #include "asterism/io/pose_table.hpp"
 #include "asterism/io/rig_file.hpp"
@@ -17,16 +19,6 @@ namespace asterism {
 namespace {
 
 using namespace cell_keys;
-
-Keys both(Keys first, const Keys& second) {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
-}
-
-template <class Options>
-std::function<void(OptionVisitor&)> describing_options(Options& options) {
-  return [&options](OptionVisitor& visit) { describe(options, visit); };
-}
 
 Lens lens_of(const CellSection& section) {
   section.only(kLens);
@@ -55,25 +47,6 @@ struct Places {
   StereoRig rig;
   std::vector<std::pair<std::string, RigidMotion>> rest;
 };
-
-RigidMotion plain_pose(const CellSection& section) {
-  RigidMotion pose;
-  pose.translation = section.vector_or_zero("position_mm");
-  if (section.has("yaw_pitch_roll_deg")) {
-    const Vec3 deg = section.vector("yaw_pitch_roll_deg");
-    pose.rotation =
-        rotation_from_yaw_pitch_roll(rad_from_deg(deg(0)), rad_from_deg(deg(1)), rad_from_deg(deg(2)));
-  }
-  if (section.has("quaternion_wxyz")) {
-    if (section.has("yaw_pitch_roll_deg"))
-      section.refuse("a pose has either angles or a quaternion, not both");
-    const auto q = section.numbers("quaternion_wxyz", 4);
-    pose.rotation = Quaternion(q[0], q[1], q[2], q[3]);
-    if (!(std::abs(pose.rotation.norm() - 1) < 1e-3)) section.refuse("`quaternion_wxyz` must have length 1");
-    pose.rotation.normalize();
-  }
-  return pose;
-}
 
 RigidMotion pose_of(const CellSection& section, const Places& places) {
   if (section.has("seen_at_mm")) {
@@ -185,24 +158,9 @@ Mover mover_of(const CellSection& section, Places& places) {
   return mover;
 }
 
-Shape shape_of(const CellSection& section) {
-  const std::string kind = section.word("shape", kShapes);
-  if (kind == "box") {
-    section.only(both(kObstacle, kBox));
-    return Box{section.vector("size_mm")};
-  }
-  if (kind == "capsule") {
-    section.only(both(kObstacle, kCapsule));
-    return Capsule{section.vector("from_mm"), section.vector("to_mm"), section.number("radius_mm")};
-  }
-  section.only(both(kObstacle, kFrustum));
-  return Frustum{section.number("bottom_radius_mm"), section.number("top_radius_mm"),
-                 section.number("height_mm")};
-}
-
 Obstacle obstacle_of(const CellSection& section, const Places& places) {
   Obstacle obstacle;
-  obstacle.shape = shape_of(section);
+  obstacle.shape = shape_of(section, kObstacle);
   obstacle.name = section.text("name");
   if (section.has("body")) obstacle.body = section.text("body");
   if (section.has("pose")) obstacle.carrier_from_shape = pose_of(section.section("pose", "a pose"), places);
@@ -212,11 +170,11 @@ Obstacle obstacle_of(const CellSection& section, const Places& places) {
 
 StereoRig rig_of_section(const CellSection& section) {
   if (section.has("rig")) {
-    section.only(kRigFile);
+    section.only(both(kRigFile, kVolume));
     return read_rig(section.file.parent_path() / section.text("rig"));
   }
   if (section.has("left") || section.has("right")) {
-    section.only(kLenses);
+    section.only(both(kLenses, kVolume));
     StereoRig rig;
     rig.left = lens_of(section.section("left", "a lens"));
     rig.right = lens_of(section.section("right", "a lens"));
@@ -224,7 +182,7 @@ StereoRig rig_of_section(const CellSection& section) {
     return rig;
   }
   CameraPair pair;
-  section.only(both(both(option_names(describing_options(pair)), kRigFile), kLenses));
+  section.only(both(both(option_names(describing_options(pair)), both(kRigFile, kLenses)), kVolume));
   read_options_of(section, describing_options(pair));
   return rig_of(pair);
 }
@@ -242,7 +200,9 @@ Cell cell_of_toml(const std::filesystem::path& file, const toml::table& table) {
   root.only(kRoot);
   Cell cell;
   cell.name = root.has("name") ? root.text("name") : file.stem().string();
-  cell.rig = rig_of_section(root.section("tracker", "[tracker]"));
+  const CellSection tracker = root.section("tracker", "[tracker]");
+  cell.rig = rig_of_section(tracker);
+  if (tracker.has("volume")) cell.volume = working_volume_of(tracker.section("volume", "[tracker.volume]"));
   Places places{cell.rig, {}};
   for (const CellSection& body : root.sections("body", "a body"))
     cell.movers.push_back(mover_of(body, places));
@@ -251,6 +211,7 @@ Cell cell_of_toml(const std::filesystem::path& file, const toml::table& table) {
   read_part(root, "sensor", cell.sensor);
   read_part(root, "light", cell.light);
   read_part(root, "timing", cell.timing);
+  if (root.has("layout")) cell.layout = layout_task_of(root.section("layout", "[layout]"));
   check_cell(cell, file.string());
   return cell;
 }

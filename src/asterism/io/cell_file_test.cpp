@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "asterism/core/files_for_tests.hpp"
 
@@ -58,6 +59,142 @@ TEST(ReadCell, SaysWhereAndWhatIsWrong) {
   EXPECT_EQ(complaint(kSound, "kind = \"rest\", pose", "kind = \"rest\", place"),
             ":6: `place` is no key of a motion; known are: kind, pose");
   EXPECT_EQ(complaint(kSound, "to_mm = [0, 0, 10]\n", ""), ":8: an obstacle has no `to_mm`");
+}
+
+const std::string kWithTask = R"(
+[tracker.volume]
+preset = "9.1 m3"
+[[body]]
+name = "plate"
+motion = {kind = "rest", pose = {position_mm = [0, 0, 2000]}}
+target = [{id = "A", position_mm = [1, 2, 3]}]
+[layout]
+body = "plate"
+most = 8
+spacing_mm = 40
+[[layout.patch]]
+name = "side"
+kind = "cylinder-side"
+radius_mm = 300
+height_mm = 50
+from_deg = -90
+to_deg = 90
+[[layout.patch]]
+name = "ring"
+kind = "annulus"
+centre_mm = [0, 0, 50]
+inner_radius_mm = 100
+outer_radius_mm = 300
+[[layout.patch]]
+name = "flap"
+kind = "plate"
+pose = {position_mm = [0, 0, 90], yaw_pitch_roll_deg = [90, 0, 0]}
+width_mm = 80
+height_mm = 60
+[[layout.patch]]
+name = "room"
+kind = "cylinder-room"
+base_mm = [0, 0, 580]
+radius_mm = 350
+height_mm = 40
+tilt_deg = 20
+[[layout.keep_out]]
+name = "eye"
+shape = "capsule"
+pose = {position_mm = [10, 0, 0]}
+from_mm = [0, 0, 0]
+to_mm = [0, 0, 100]
+radius_mm = 30
+[[layout.point]]
+name = "rim"
+position_mm = [200, 0, 900]
+)";
+
+TEST(ReadCell, TakesAWorkingVolumeAndALayoutTask) {
+  const TestFolder folder;
+  const Cell cell = read_cell(folder.write("cell.toml", kWithTask));
+  EXPECT_NEAR(volume_m3(cell.volume.value()), 9.1, 1e-9);
+  const LayoutTask& task = cell.layout.value();
+  EXPECT_EQ(task.body, "plate");
+  EXPECT_EQ(task.most, 8);
+  EXPECT_EQ(task.spacing_mm, 40);
+  ASSERT_EQ(task.surface.patches.size(), 4U);
+  const auto& side = std::get<CylinderSide>(task.surface.patches[0].patch);
+  EXPECT_NEAR(side.from_rad, -0.5 * std::numbers::pi, 1e-12);
+  EXPECT_EQ(side.height_mm, 50);
+  EXPECT_NEAR(std::get<Annulus>(task.surface.patches[1].patch).to_rad, 2 * std::numbers::pi, 1e-12);
+  const auto& plate = std::get<Plate>(task.surface.patches[2].patch);
+  EXPECT_LT((plate.body_from_plate * Vec3(1, 0, 0) - Vec3(0, 1, 90)).norm(), 1e-12);
+  EXPECT_NEAR(std::get<CylinderRoom>(task.surface.patches[3].patch).tilt_rad, rad_from_deg(20), 1e-12);
+  EXPECT_EQ(task.surface.keep_outs.at(0).name, "eye");
+  EXPECT_EQ(task.surface.keep_outs[0].body_from_shape.translation.x(), 10);
+  EXPECT_EQ(task.points.at(0).in_body_mm, Vec3(200, 0, 900));
+}
+
+TEST(ReadCell, SaysWhatIsWrongWithAVolumeOrATask) {
+  EXPECT_EQ(complaint(kWithTask, "preset = \"9.1 m3\"", "near_m = 3"),
+            ":3: `near_m` is no key of [tracker.volume]; did you mean `near_mm`?");
+  EXPECT_EQ(complaint(kWithTask, "preset = \"9.1 m3\"", "preset = \"9 m3\""),
+            ":3: `preset` is `9 m3`; it must be one of: 9.1 m3, 16.6 m3");
+  EXPECT_EQ(complaint(kWithTask, "spacing_mm = 40", "spacing = 40"),
+            ":11: `spacing` is no key of [layout]; did you mean `spacing_mm`?");
+  EXPECT_EQ(complaint(kWithTask, "[[layout.patch]]", "[[layout.patches]]"),
+            ":12: `patches` is no key of [layout]; did you mean `patch`?");
+  EXPECT_EQ(complaint(kWithTask, "\"annulus\"", "\"ring\""),
+            ":21: `kind` is `ring`; it must be one of: cylinder-side, annulus, plate, cylinder-room");
+  EXPECT_EQ(complaint(kWithTask, "from_deg", "start_deg"),
+            ":17: `start_deg` is no key of a cylinder-side; did you mean `to_deg`?");
+  EXPECT_EQ(complaint(kWithTask, "most = 8", "most = 80"), ":10: `most` is 80; it must lie between 4 and 64");
+  EXPECT_EQ(complaint(kWithTask, "body = \"plate\"\nmost", "body = \"plane\"\nmost"),
+            ": the layout task is for body `plane`, which is not there; bodies are: plate");
+}
+
+TEST(WriteCell, KeepsAWorkingVolumeAndALayoutTask) {
+  const TestFolder folder;
+  const Cell cell = read_cell(folder.write("cell.toml", kWithTask));
+  const std::filesystem::path file = folder / "again.toml";
+  write_cell(file, cell);
+  const Cell again = read_cell(file);
+  EXPECT_NEAR(volume_m3(again.volume.value()), 9.1, 1e-9);
+  ASSERT_EQ(again.layout->surface.patches.size(), 4U);
+  EXPECT_NEAR(std::get<CylinderSide>(again.layout->surface.patches[0].patch).to_rad, 0.5 * std::numbers::pi,
+              1e-12);
+  EXPECT_EQ(std::get<Capsule>(again.layout->surface.keep_outs.at(0).shape).radius_mm, 30);
+  EXPECT_EQ(again.layout->points.at(0).name, "rim");
+  EXPECT_EQ(again.layout->spacing_mm, 40);
+}
+
+TEST(CellOf, BringsALayoutTaskForThePlatform) {
+  const Cell cell = cell_of("engine_casing");
+  ASSERT_TRUE(cell.volume && cell.layout);
+  EXPECT_EQ(cell.layout->body, "platform");
+  EXPECT_EQ(cell.layout->points.size(), 8U);
+  const auto& room = std::get<CylinderRoom>(cell.layout->surface.patches.at(0).patch);
+  EXPECT_EQ(room.radius_mm, 350);
+  EXPECT_EQ(room.base_mm.z(), 580);
+}
+
+TEST(CellOf, HasAWorkingVolumeThatBothCamerasSee) {
+  const Cell cell = cell_of("engine_casing");
+  const RigidMotion tracker_from_middle_ = tracker_from_middle(cell.rig);
+  const WorkingVolume& volume = cell.volume.value();
+  for (const double sx : {-0.5, 0.5}) {
+    for (const double sy : {-0.5, 0.5}) {
+      for (const bool far : {false, true}) {
+        const Vec3 corner = {sx * (far ? volume.far_width_mm : volume.near_width_mm),
+                             sy * (far ? volume.far_height_mm : volume.near_height_mm),
+                             far ? volume.far_mm : volume.near_mm};
+        for (const Side side : {Side::Left, Side::Right}) {
+          const auto image = project(cell.rig.lens(side),
+                                     cell.rig.camera_from_tracker(side) * (tracker_from_middle_ * corner));
+          ASSERT_TRUE(image.has_value());
+          EXPECT_GT(image->px.minCoeff(), 0);
+          EXPECT_LT(image->px.x(), cell.rig.lens(side).width_px - 1);
+          EXPECT_LT(image->px.y(), cell.rig.lens(side).height_px - 1);
+        }
+      }
+    }
+  }
 }
 
 TEST(WriteCell, IsReadBackTheSame) {
