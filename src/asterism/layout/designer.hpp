@@ -1,127 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <optional>
 #include <span>
-#include <string>
-#include <vector>
 
-#include "asterism/accuracy/motion_accuracy.hpp"
 #include "asterism/cell/cell.hpp"
-#include "asterism/layout/identifiability.hpp"
-#include "asterism/layout/metrics.hpp"
-#include "asterism/layout/objectives.hpp"
-#include "asterism/layout/seeds.hpp"
+#include "asterism/layout/design.hpp"
+#include "asterism/layout/layout_problem.hpp"
 #include "asterism/optimization/optimizer.hpp"
-#include "asterism/visibility/visibility.hpp"
 
 namespace asterism {
-
-struct DesignerOptions {
-  std::string objectives;   // names, by commas; empty: targets, the worst error after the task's losses,
-                            // identifiability
-  std::string constraints;  // "worst-error <= 0.2"; beside the task's own or in place of them
-  double identifiability_cap_mm = 10;  // larger margins count as this
-  bool published_seeds = true;         // start from the paper's layouts too, where they fit
-  int places = 400;                    // of the surface, asked for visibility and by the greedy seeds
-  int most_designs = 60;               // of the front shown: the knee, the extremes, then the most different
-  OptimizerOptions optimizer;
-  VisibilityOptions visibility;
-  AccuracyOptions accuracy;  // its `losses` is set by what is asked
-};
-void describe(DesignerOptions& options, OptionVisitor& visit);
-
-/// A value by name; empty where it has none, as an error of poses that are not determined.
-struct NamedValue {
-  std::string name;
-  std::string unit;
-  bool more_is_better = false;
-  std::optional<double> value;
-};
-
-struct ConstraintState {
-  std::string name;
-  std::string unit;
-  bool at_least = true;  // else at most
-  double bound = 0;
-  std::optional<double> value;
-  double violation = 0;  // in the unit; 0 = it holds
-};
-
-/// How nearly the layout is taken for another body of the cell.
-struct MarginToBody {
-  std::string body;
-  IdentifiabilityMargin margin;
-};
-
-/// A layout with all that is known of it.
-struct LayoutDesign {
-  std::string name;             // "6 targets, 2"
-  std::string origin;           // "present", "Table 1 S3", "greedy", "found"
-  std::vector<Target> targets;  // P1 … Pn with normals and diameters, in the body's frame
-  LayoutMetrics metrics;
-  std::vector<NamedValue> quantities;  // all of layout_quantities(), in that order
-  std::vector<NamedValue> objectives;  // those asked for
-  std::vector<ConstraintState> constraints;
-  IdentifiabilityMargin identifiability;  // within the body
-  std::vector<MarginToBody> between_bodies;
-  MotionVisibility visibility;  // by pose
-  MotionAccuracy accuracy;      // [0] nominal, [1] any one lost, [2] any two
-
-  [[nodiscard]] bool feasible() const;
-  [[nodiscard]] std::optional<double> value_of(LayoutQuantity quantity) const;
-};
-
-/// How an optimum of the first objective per number of targets compares: what each further target buys.
-struct DesignResult {
-  std::vector<LayoutDesign> front;      // feasible, non-dominated; by number of targets, then by objectives
-  int knee = -1;                        // index in `front`; −1 when the front is empty
-  std::string why;                      // why the knee: what its neighbours would win and cost
-  std::vector<std::string> given_up;    // one a design: what it gives up against the best of the front
-  std::optional<LayoutDesign> present;  // the body's targets in the cell as they stand
-  std::vector<LayoutDesign> published;  // the paper's layouts that fit the surface
-  std::vector<GreedyLayout> greedy;     // by number of targets, with the bound
-  std::optional<LayoutDesign> closest;  // where nothing is feasible: what breaks the constraints least
-  std::string infeasible;               // and in words: which constraints, and by how much
-  std::vector<std::string> warnings;
-  std::vector<GenerationRecord> history;
-  StopReason stopped = StopReason::Generations;
-  std::size_t front_found = 0;  // designs of the whole front, before the choice of `most_designs`
-  std::uint64_t front_checksum = 0;
-  std::vector<double> pose_times_s;  // of the poses of visibility and accuracy
-};
-
-/// The task of a cell made ready: motion, surface, other bodies. Throws InputError when the cell has no
-/// layout task, its body is not there, the surface cannot hold `fewest` targets at the spacing, or in
-/// some pose no place of the surface is seen by both cameras; the message says which pose and why.
-class LayoutProblem : public OptimizationProblem {
- public:
-  LayoutProblem(const Cell& cell, const DesignerOptions& options);
-  ~LayoutProblem() override;
-
-  [[nodiscard]] std::string identity() const override;
-  [[nodiscard]] std::vector<ObjectiveInfo> objectives() const override;
-  [[nodiscard]] std::vector<ConstraintInfo> constraints() const override;
-  [[nodiscard]] Genes sample(RandomStream& random) const override;
-  [[nodiscard]] std::vector<Genes> seeds() const override;
-  void vary(std::span<const double> mother, std::span<const double> father, Genes& daughter, Genes& son,
-            RandomStream& random) const override;
-  void evaluate(std::span<const double> genes, std::span<double> objectives,
-                std::span<double> violations) const override;
-  [[nodiscard]] std::size_t niche_of(std::span<const double> genes) const override;
-
-  [[nodiscard]] std::vector<Target> targets_of(std::span<const double> genes) const;
-  [[nodiscard]] LayoutDesign evaluate_fully(std::span<const Target> targets, std::string origin) const;
-  [[nodiscard]] const std::vector<GreedyLayout>& greedy() const;
-  [[nodiscard]] const std::vector<std::string>& warnings() const;
-  [[nodiscard]] const std::vector<double>& pose_times_s() const;
-
- private:
-  struct Model;
-  std::unique_ptr<const Model> model_;
-};
 
 /// Everything about one layout of the task's body. Targets without a normal face as the surface's nearest
 /// place does.
@@ -135,7 +22,6 @@ class LayoutProblem : public OptimizationProblem {
 
 /// The same in two steps, for a run that is resumed or spread over processes: make the problem, run an
 /// Optimizer on it, and tell what it found.
-[[nodiscard]] DesignResult design_result(const LayoutProblem& problem, const Cell& cell,
-                                         const DesignerOptions& options, const OptimizationResult& found);
+[[nodiscard]] DesignResult design_result(const LayoutProblem& problem, const OptimizationResult& found);
 
 }  // namespace asterism

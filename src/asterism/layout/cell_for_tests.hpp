@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "asterism/cell/cell.hpp"
+#include "asterism/layout/paper_layouts.hpp"
+
+namespace asterism {
+
+/// The paper's platform and tracker as docs/paper.md chooses them (2 m away, 60° up, 16 mm lenses, 1 m
+/// apart), sweeping 15°, its targets in a room of the given radius between z 580 and 620; a point of the part
+/// above.
+inline Cell paper_cell(double radius_mm = 350, int poses = 40) {
+  Cell cell;
+  cell.name = "paper";
+  cell.rig = rig_of(CameraPair{4096, 3000, 4638, 1000, 2000});
+  Body platform{"platform", {}};
+  for (const Vec3& position : paper_table1()[2].targets) {
+    Target target;
+    target.id = "P" + std::to_string(platform.targets.size() + 1);
+    target.position = position;
+    platform.targets.push_back(target);
+  }
+  Sweep sweep;
+  sweep.tracker_from_rest =
+      tracker_from_frame(SeenFrom{Vec3(0, 0, 600), 2000, rad_from_deg(60), rad_from_deg(45)}, cell.rig);
+  sweep.pitch = {rad_from_deg(15), 0.25, 0};
+  sweep.roll = {rad_from_deg(15), 0.5, 0};
+  cell.movers.push_back({platform, sweep});
+  cell.timing = {81, 20};  // 4 s: a whole turn of both swings
+
+  LayoutTask task;
+  task.body = "platform";
+  task.surface.patches.push_back({"room", CylinderRoom{{0, 0, 580}, radius_mm, 40, rad_from_deg(20)}});
+  task.points.push_back({"part", Vec3(0, 0, 900)});
+  task.poses = poses;
+  cell.layout = task;
+  return cell;
+}
+
+}  // namespace asterism
