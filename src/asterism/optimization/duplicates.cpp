@@ -7,18 +7,25 @@
 namespace asterism {
 namespace {
 
-/// Two chains of multiplications side by side. No secret is kept and equality is checked afterwards.
+constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15;
+
+std::uint64_t mixed(std::uint64_t chain, double gene) {
+  return (std::rotl(chain, 29) ^ std::bit_cast<std::uint64_t>(gene)) * kOdd;
+}
+
+/// Four chains of multiplications side by side. No secret is kept and equality is checked afterwards.
 std::uint64_t hash_of(const Genes& genes) {
-  constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15;
-  std::uint64_t a = genes.size() + 1, b = kOdd;
+  std::uint64_t a = genes.size(), b = kOdd, c = ~kOdd, d = kOdd >> 1;
   std::size_t i = 0;
-  for (; i + 1 < genes.size(); i += 2) {
-    a = (std::rotl(a, 29) ^ std::bit_cast<std::uint64_t>(genes[i])) * kOdd;
-    b = (std::rotl(b, 29) ^ std::bit_cast<std::uint64_t>(genes[i + 1])) * kOdd;
+  for (; i + 3 < genes.size(); i += 4) {
+    a = mixed(a, genes[i]);
+    b = mixed(b, genes[i + 1]);
+    c = mixed(c, genes[i + 2]);
+    d = mixed(d, genes[i + 3]);
   }
-  if (i < genes.size()) a = (std::rotl(a, 29) ^ std::bit_cast<std::uint64_t>(genes[i])) * kOdd;
-  const std::uint64_t both = (a ^ std::rotl(b, 32)) * kOdd;
-  return both ^ (both >> 32);
+  for (; i < genes.size(); ++i) a = mixed(a, genes[i]);
+  const std::uint64_t all = (((a * kOdd ^ b) * kOdd ^ c) * kOdd ^ d) * kOdd;
+  return all ^ (all >> 32);
 }
 
 bool same_bits(const Genes& a, const Genes& b) {

@@ -7,11 +7,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "asterism/core/lanes.hpp"
+
 namespace asterism {
 
-/// x^n for n ≥ 0 by repeated squaring.
-[[nodiscard]] inline double integer_power(double x, int n) {
-  double power = 1;
+/// x^n for n ≥ 0 by repeated squaring, of a number or of lanes.
+template <class Number>
+[[nodiscard]] ASTERISM_INLINE Number integer_power(Number x, int n) {
+  Number power = x * 0 + 1;
   for (; n > 0; n >>= 1) {
     if ((n & 1) != 0) power *= x;
     x *= x;
@@ -28,6 +31,24 @@ class IntegerRoot {
   /// 1 ≤ n ≤ 1000.
   explicit IntegerRoot(int n);
 
+  /// Of four numbers at once, the same bits as one by one.
+  ASTERISM_INLINE DoubleLanes operator()(DoubleLanes x) const {
+    const WordLanes bits = reinterpret_cast<WordLanes>(x);
+    const WordLanes exponent = bits >> 52;
+    const WordLanes cell = (bits >> 46) & (kCells - 1);
+    const DoubleLanes mantissa = reinterpret_cast<DoubleLanes>((bits & kMantissaBits) | kBitsOfOne);
+    DoubleLanes inverse, root, power;
+    for (std::size_t lane = 0; lane < kDoubleLanes; ++lane) {
+      inverse[lane] = cell_inverse_[cell[lane]];
+      root[lane] = cell_root_[cell[lane]];
+      power[lane] = exponent_root_[exponent[lane]];
+    }
+    const DoubleLanes d = mantissa * inverse - 1;
+    const DoubleLanes series =
+        1 + d * (series_[0] + d * (series_[1] + d * (series_[2] + d * (series_[3] + d * series_[4]))));
+    return power * (root * series);
+  }
+
   [[nodiscard]] double operator()(double x) const {
     const auto bits = std::bit_cast<std::uint64_t>(x);
     const std::size_t exponent = bits >> 52;
@@ -40,6 +61,7 @@ class IntegerRoot {
   }
 
  private:
+  using WordLanes = std::uint64_t __attribute__((vector_size(sizeof(DoubleLanes))));
   static constexpr std::size_t kCells = 64;
   static constexpr std::uint64_t kMantissaBits = (std::uint64_t{1} << 52) - 1;
   static constexpr std::uint64_t kBitsOfOne = std::uint64_t{1023} << 52;

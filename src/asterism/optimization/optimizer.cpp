@@ -11,10 +11,10 @@
 #include <utility>
 
 #include "asterism/core/result.hpp"
+#include "asterism/optimization/hypervolume.hpp"
 #include "asterism/optimization/island.hpp"
 #include "asterism/optimization/non_dominated_sort.hpp"
 #include "asterism/optimization/share_work.hpp"
-#include "asterism/optimization/simple_hypervolume.hpp"
 
 namespace asterism {
 namespace {
@@ -174,7 +174,7 @@ double Optimizer::Run::hypervolume_of_front() {
     for (std::size_t k = 0; k < m; ++k)
       reference.push_back(worst[k] + (worst[k] > best[k] ? 0.1 * (worst[k] - best[k]) : 1.0));
   }
-  return simple_hypervolume(front_objectives(), m, reference);
+  return hypervolume(front_objectives(), m, reference);
 }
 
 void Optimizer::Run::record(double seconds) {

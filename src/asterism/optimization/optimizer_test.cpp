@@ -9,8 +9,8 @@
 
 #include "asterism/core/parallel.hpp"
 #include "asterism/core/result.hpp"
+#include "asterism/optimization/hypervolume.hpp"
 #include "asterism/optimization/problems_for_tests.hpp"
-#include "asterism/optimization/simple_hypervolume.hpp"
 
 namespace asterism {
 namespace {
@@ -21,7 +21,7 @@ double hypervolume_of(const std::vector<Candidate>& candidates, const std::vecto
   std::vector<double> objectives;
   for (const Candidate& candidate : candidates)
     objectives.insert(objectives.end(), candidate.objectives.begin(), candidate.objectives.end());
-  return simple_hypervolume(objectives, reference.size(), reference);
+  return hypervolume(objectives, reference.size(), reference);
 }
 
 template <class Work>

@@ -2,6 +2,7 @@
 #include "asterism/optimization/variation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -16,18 +17,47 @@ constexpr double kSameGene = 1e-14;  // parents nearer than this have one gene, 
 /// In (0, 1), never 0, so that roots and inverses of it are finite.
 double open_uniform(RandomStream& random) { return (static_cast<double>(random.bits()) + 0.5) * 0x1.0p-32; }
 
-/// Where the distribution of a child's spread is cut off by a bound `room` away from the outer parent:
-/// twice its area up to there. Below `far`, apart/(apart + 2 room) is too small to matter.
-double area_within(double apart, double room, int power, double far) {
-  const double reach = apart + 2 * room;
-  return apart < far * reach ? 2 : 2 - integer_power(apart / reach, power);
+/// Genes that cross, at most 32 at a time.
+struct alignas(kLanesAlignment) Crossing {
+  static constexpr std::size_t kMost = 32;
+  std::array<DoubleLanes, kMost / kDoubleLanes> low, high;        // the parents'
+  std::array<DoubleLanes, kMost / kDoubleLanes> lowest, highest;  // bounds
+  std::array<DoubleLanes, kMost / kDoubleLanes> u;                // random, in (0, 1)
+  std::array<DoubleLanes, kMost / kDoubleLanes> lower, upper;     // the children's
+
+  void set(std::size_t k, double mother, double father, double bottom, double top, double random) {
+    const std::size_t block = k / kDoubleLanes, lane = k % kDoubleLanes;
+    low[block][lane] = std::min(mother, father);
+    high[block][lane] = std::max(mother, father);
+    lowest[block][lane] = bottom;
+    highest[block][lane] = top;
+    u[block][lane] = random;
+  }
+};
+
+/// How far a child lies from the middle of its parents, in half their distance, when they are `apart` and
+/// a bound lies `room` beyond the outer one.
+ASTERISM_INLINE DoubleLanes spread(DoubleLanes u, DoubleLanes apart, DoubleLanes room, int power,
+                                   const IntegerRoot& root) {
+  const DoubleLanes area = u * (2 - integer_power(apart / (apart + 2 * room), power));
+  const DoubleLanes factor = root(area <= 1 ? area : 2 - area);
+  return area <= 1 ? factor : 1 / factor;
 }
 
-/// How far a child lies from the middle of its parents, in half their distance.
-double spread(double area, const IntegerRoot& root) {
-  const bool inside = area <= 1;
-  const double factor = root(inside ? area : 2 - area);
-  return inside ? factor : 1 / factor;
+ASTERISM_CLONES void make_children(Crossing& c, std::size_t blocks, int power, const IntegerRoot& root) {
+  for (std::size_t i = 0; i < blocks; ++i) {
+    const DoubleLanes apart = c.high[i] - c.low[i];
+    const DoubleLanes sum = c.low[i] + c.high[i];
+    const DoubleLanes below = spread(c.u[i], apart, c.low[i] - c.lowest[i], power, root);
+    const DoubleLanes above = spread(c.u[i], apart, c.highest[i] - c.high[i], power, root);
+    const DoubleLanes lower = 0.5 * (sum - below * apart);
+    const DoubleLanes upper = 0.5 * (sum + above * apart);
+    // Rounding may carry them out of their bounds, even across: each is held to both.
+    const DoubleLanes raised = lower > c.lowest[i] ? lower : c.lowest[i];
+    const DoubleLanes capped = upper < c.highest[i] ? upper : c.highest[i];
+    c.lower[i] = raised < c.highest[i] ? raised : c.highest[i];
+    c.upper[i] = capped > c.lowest[i] ? capped : c.lowest[i];
+  }
 }
 
 }  // namespace
@@ -44,8 +74,7 @@ void describe(VariationOptions& options, OptionVisitor& visit) {
 Variation::Variation(const VariationOptions& options)
     : options_(options),
       crossover_root_(options.crossover_index + 1),
-      mutation_root_(options.mutation_index + 1),
-      far_(crossover_root_(0x1p-54)) {}
+      mutation_root_(options.mutation_index + 1) {}
 
 void Variation::cross(std::span<const double> mother, std::span<const double> father,
                       std::span<const double> lowest, std::span<const double> highest,
@@ -60,28 +89,28 @@ void Variation::cross(std::span<const double> mother, std::span<const double> fa
     return;
   }
   if (random.uniform() >= options_.crossover_probability) return;
-  const int power = options_.crossover_index + 1;
-  for (std::size_t block = 0; block < count; block += 32) {
-    std::uint32_t crossing = random.bits();
-    const std::uint32_t swapping = random.bits();
-    if (count - block < 32) crossing &= (std::uint32_t{1} << (count - block)) - 1;
-    for (; crossing != 0; crossing &= crossing - 1) {
-      const int bit = std::countr_zero(crossing);
-      const std::size_t i = block + static_cast<std::size_t>(bit);
-      const double low = std::min(mother[i], father[i]);
-      const double high = std::max(mother[i], father[i]);
-      const double apart = high - low;
-      if (!(apart > kSameGene)) continue;
-      const double u = open_uniform(random);
-      const double area_below = area_within(apart, low - lowest[i], power, far_);
-      const double area_above = area_within(apart, highest[i] - high, power, far_);
-      const double below = spread(u * area_below, crossover_root_);
-      const double above = area_above == area_below ? below : spread(u * area_above, crossover_root_);
-      const double lower = std::clamp(0.5 * (low + high - below * apart), lowest[i], highest[i]);
-      const double upper = std::clamp(0.5 * (low + high + above * apart), lowest[i], highest[i]);
-      const bool swap = ((swapping >> bit) & 1) != 0;
-      daughter[i] = swap ? upper : lower;
-      son[i] = swap ? lower : upper;
+  Crossing crossing;
+  std::array<std::size_t, Crossing::kMost> gene;
+  for (std::size_t first = 0; first < count; first += Crossing::kMost) {
+    std::uint32_t chosen = random.bits();
+    const std::uint32_t swapped = random.bits();
+    if (count - first < Crossing::kMost) chosen &= (std::uint32_t{1} << (count - first)) - 1;
+    std::size_t crossing_genes = 0;
+    for (; chosen != 0; chosen &= chosen - 1) {
+      const std::size_t i = first + static_cast<std::size_t>(std::countr_zero(chosen));
+      if (!(std::abs(mother[i] - father[i]) > kSameGene)) continue;
+      gene[crossing_genes] = i;
+      crossing.set(crossing_genes++, mother[i], father[i], lowest[i], highest[i], open_uniform(random));
+    }
+    const std::size_t blocks = (crossing_genes + kDoubleLanes - 1) / kDoubleLanes;
+    for (std::size_t k = crossing_genes; k < blocks * kDoubleLanes; ++k) crossing.set(k, 0, 1, 0, 1, 0.5);
+    make_children(crossing, blocks, options_.crossover_index + 1, crossover_root_);
+    for (std::size_t k = 0; k < crossing_genes; ++k) {
+      const double lower = crossing.lower[k / kDoubleLanes][k % kDoubleLanes];
+      const double upper = crossing.upper[k / kDoubleLanes][k % kDoubleLanes];
+      const bool swap = ((swapped >> (gene[k] - first)) & 1) != 0;
+      daughter[gene[k]] = swap ? upper : lower;
+      son[gene[k]] = swap ? lower : upper;
     }
   }
 }

@@ -42,7 +42,6 @@ class Variation {
  private:
   VariationOptions options_;
   IntegerRoot crossover_root_, mutation_root_;  // x^(1/(index + 1))
-  double far_;
 };
 
 }  // namespace asterism
