@@ -4,18 +4,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <numeric>
 
 #include "asterism/core/result.hpp"
+#include "asterism/optimization/hypervolume.hpp"
 
 namespace asterism {
 namespace {
 
+// Thinning a surface takes quadratic time; beyond this size crowding, which then has enough neighbours to
+// judge by, must do.
+constexpr std::size_t kLargestSurface = 2000;
+
 Survival resolved(Survival survival, std::size_t m) {
-  if (survival == Survival::ReferencePoints || (survival == Survival::HypervolumeContribution && m != 2))
+  if (survival == Survival::ReferencePoints ||
+      (survival == Survival::HypervolumeContribution && (m < 2 || m > 3)))
     throw InputError(fmt::format("survival: of {} objectives, survivors are chosen by crowding", m));
   if (survival != Survival::Automatic) return survival;
-  return m == 2 ? Survival::HypervolumeContribution : Survival::Crowding;
+  return m == 2 || m == 3 ? Survival::HypervolumeContribution : Survival::Crowding;
 }
 
 }  // namespace
@@ -100,7 +108,8 @@ void SurvivorSelection::select_feasible(std::span<const double> objectives, std:
     const auto front = fronts.front(k);
     const std::size_t kept = std::min(places, front.size());
     const Survival survival = resolved(survival_, m);
-    if (survival == Survival::HypervolumeContribution)
+    const bool too_large = m == 3 && front.size() > kLargestSurface;
+    if (survival == Survival::HypervolumeContribution && !too_large)
       thin_by_hypervolume(objectives, m, front, static_cast<int>(k), kept);
     else
       thin_by_crowding(objectives, m, front, static_cast<int>(k), kept);
@@ -125,6 +134,7 @@ void SurvivorSelection::thin_by_crowding(std::span<const double> objectives, std
 void SurvivorSelection::thin_by_hypervolume(std::span<const double> objectives, std::size_t m,
                                             std::span<const std::uint32_t> front, int rank,
                                             std::size_t places) {
+  if (m == 3) return thin_surface(objectives, front, rank, places);
   x_.resize(front.size());
   y_.resize(front.size());
   for (std::size_t i = 0; i < front.size(); ++i) {
@@ -134,6 +144,32 @@ void SurvivorSelection::thin_by_hypervolume(std::span<const double> objectives, 
   const auto kept = thinning_(x_, y_, places);
   for (std::size_t i = 0; i < kept.size(); ++i)
     survivors_.push_back({front[kept[i]], rank, thinning_.contributions()[i]});
+}
+
+/// Volumes reach a tenth of the front's extent beyond its worst values.
+void SurvivorSelection::thin_surface(std::span<const double> objectives, std::span<const std::uint32_t> front,
+                                     int rank, std::size_t places) {
+  surface_.clear();
+  std::array<double, 3> least, most;
+  least.fill(std::numeric_limits<double>::infinity());
+  most.fill(-std::numeric_limits<double>::infinity());
+  for (const std::uint32_t i : front)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double value = objectives[3 * i + k];
+      surface_.push_back(value);
+      least[k] = std::min(least[k], value);
+      most[k] = std::max(most[k], value);
+    }
+  std::array<double, 3> reference;
+  for (std::size_t k = 0; k < 3; ++k)
+    reference[k] = most[k] + (most[k] > least[k] ? 0.1 * (most[k] - least[k]) : 1.0);
+
+  const auto kept = surface_thinning_(surface_, places, reference);
+  for (std::size_t i = 0; i < places; ++i)  // positions ascend, so nothing is overwritten before it moves
+    std::copy_n(surface_.begin() + 3 * static_cast<std::ptrdiff_t>(kept[i]), 3,
+                surface_.begin() + 3 * static_cast<std::ptrdiff_t>(i));
+  const auto shares = hypervolume_contributions(std::span(surface_).first(3 * places), 3, reference);
+  for (std::size_t i = 0; i < places; ++i) survivors_.push_back({front[kept[i]], rank, shares[i]});
 }
 
 }  // namespace asterism

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "asterism/optimization/crowding.hpp"
-#include "asterism/optimization/hypervolume_truncation.hpp"
+#include "asterism/optimization/front_thinning.hpp"
 #include "asterism/optimization/non_dominated_sort.hpp"
+#include "asterism/optimization/surface_thinning.hpp"
 
 namespace asterism {
 
@@ -55,6 +56,8 @@ class SurvivorSelection {
                         std::span<const std::uint32_t> front, int rank, std::size_t places);
   void thin_by_hypervolume(std::span<const double> objectives, std::size_t m,
                            std::span<const std::uint32_t> front, int rank, std::size_t places);
+  void thin_surface(std::span<const double> objectives, std::span<const std::uint32_t> front, int rank,
+                    std::size_t places);
 
   Survival survival_;
   std::vector<Survivor> survivors_;
@@ -65,11 +68,12 @@ class SurvivorSelection {
   std::vector<std::uint32_t> members_;  // of all niches, niche after niche
   std::vector<std::uint32_t> feasible_, infeasible_;
   std::vector<double> feasible_objectives_;
-  std::vector<double> x_, y_;
+  std::vector<double> x_, y_, surface_;
   std::vector<std::uint32_t> by_distance_;
   NonDominatedSort sort_;
   CrowdingDistance crowding_;
   FrontThinning thinning_;
+  SurfaceThinning surface_thinning_;
 };
 
 }  // namespace asterism

@@ -125,7 +125,7 @@ TEST(SurvivorSelection, KeepsOneOfEachCopyBeforeAnyTwo) {
 TEST(SurvivorSelection, DoesNotDependOnTheOrderOfTheContenders) {
   const std::size_t count = 200;
   for (const Survival how : {Survival::Crowding, Survival::HypervolumeContribution})
-    for (const std::size_t m : {2U}) {
+    for (const std::size_t m : {2, 3}) {
       const auto points = random_points(count, m, 61);
       std::vector<double> reversed;
       for (std::size_t i = count; i-- > 0;)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "asterism/optimization/hypervolume_truncation.hpp"
+#include "asterism/optimization/front_thinning.hpp"
 
 #include <algorithm>
 #include <bit>
