@@ -11,9 +11,10 @@
 namespace asterism {
 namespace {
 
-constexpr int kPushes = 8;       // sweeps of pushing targets apart
-constexpr int kDarts = 40;       // tries for a free place
-constexpr double kSpare = 1e-6;  // pushed this much farther than asked, against rounding
+constexpr int kManyPushes = 300;  // the same, where room is sought
+constexpr int kPushes = 8;        // sweeps of pushing targets apart
+constexpr int kDarts = 40;        // tries for a free place
+constexpr double kSpare = 1e-6;   // pushed this much farther than asked, against rounding
 
 std::size_t index_below(std::size_t count, RandomStream& random) {
   return random.below(static_cast<std::uint32_t>(count));
@@ -136,6 +137,19 @@ void repair(std::vector<Vec3>& layout, const LayoutRules& rules, RandomStream& r
     }
   }
   put_in_order(layout);
+}
+
+std::optional<std::vector<Vec3>> spread_apart(int targets, const LayoutRules& rules, RandomStream& random) {
+  std::vector<Vec3> layout;
+  for (int i = 0; i < targets; ++i) {
+    const auto place = random_place(rules.surface, rules.clearance_mm, random);
+    if (!place) return std::nullopt;
+    layout.push_back(place->position_mm);
+  }
+  for (int sweep = 0; sweep < kManyPushes; ++sweep) {
+    if (push_apart(layout, rules, random)) return layout;
+  }
+  return std::nullopt;
 }
 
 void cut_and_join(std::span<const Vec3> mother, std::span<const Vec3> father, std::vector<Vec3>& daughter,

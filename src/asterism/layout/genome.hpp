@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,11 @@ void put_in_order(std::vector<Vec3>& layout);
 /// are pushed along the surface, then moved to a free place at random, then left out while more than
 /// `fewest` remain. What still stands too near is left for a constraint to judge. In order at the end.
 void repair(std::vector<Vec3>& layout, const LayoutRules& rules, RandomStream& random);
+
+/// So many targets at random, pushed along the surface until they keep their distance. Empty when that does
+/// not come off in 300 sweeps.
+[[nodiscard]] std::optional<std::vector<Vec3>> spread_apart(int targets, const LayoutRules& rules,
+                                                            RandomStream& random);
 
 /// A random plane through the parents' middle: each child has one parent's targets on one side and the
 /// other's on the other (as Ryerkerk et al. 2017 have it for lists of any length).

@@ -70,6 +70,21 @@ TEST(Repair, LeavesTargetsOutWhereThereIsNoRoom) {
   EXPECT_GE(layout.size(), 4U);
 }
 
+TEST(SpreadApart, FindsADensePackingAndSaysWhenItCannot) {
+  LayoutRules rules = rules_for_tests();
+  rules.surface = {{{"disc", Annulus{{0, 0, 600}, 0, 104}}}, {}};  // 100 takes six about one, exactly
+  int found = 0;
+  for (std::uint64_t trial = 0; trial < 20; ++trial) {
+    RandomStream random(38, trial);
+    const auto layout = spread_apart(7, rules, random);
+    if (!layout) continue;
+    ++found;
+    EXPECT_GE(measure_layout(*layout).min_pair_distance_mm, 100);
+    EXPECT_FALSE(spread_apart(8, rules, random));
+  }
+  EXPECT_GE(found, 1);
+}
+
 TEST(CutAndJoin, KeepsEveryTargetOfBothParents) {
   const auto& mother = paper_table1()[0].targets;
   const auto& father = paper_table9()[2].targets;

@@ -13,36 +13,27 @@
 namespace asterism {
 namespace {
 
-enum Purpose : std::uint32_t { kRoom = 1, kSight };
+enum Purpose : std::uint32_t { kRoom = 1, kPushing, kSight };
 
-/// The most targets for which room was found: by darts, and by pushing as many as are wanted apart.
+/// The most targets for which room was found: by darts, then one more at a time by pushing them apart.
 int room_for(const LayoutRules& rules) {
-  LayoutRules as_many = rules;
-  as_many.fewest = 1;
-  int found = 0;
-  for (std::uint64_t tries = 0; tries < 30 && found < rules.most; ++tries) {
+  std::size_t found = 0;
+  for (std::uint64_t tries = 0; tries < 5; ++tries) {
     RandomStream random(0, tries, kRoom);
     const auto darts = poisson_disc(rules.surface, rules.spacing_mm, rules.clearance_mm,
                                     static_cast<std::size_t>(rules.most), random);
-    found = std::max(found, static_cast<int>(darts.size()));
-    std::vector<Vec3> layout;
-    for (int i = 0; i < rules.most; ++i) {
-      const auto place = random_place(rules.surface, rules.clearance_mm, random);
-      if (place) layout.push_back(place->position_mm);
-    }
-    if (layout.empty()) return found;
-    for (int again = 0; again < 5; ++again) repair(layout, as_many, random);
-    const bool apart = [&] {
-      for (std::size_t i = 0; i < layout.size(); ++i) {
-        for (std::size_t j = 0; j < i; ++j) {
-          if ((layout[i] - layout[j]).norm() < rules.spacing_mm) return false;
-        }
-      }
-      return true;
-    }();
-    if (apart) found = std::max(found, static_cast<int>(layout.size()));
+    found = std::max(found, darts.size());
   }
-  return found;
+  auto room = static_cast<int>(found);
+  const auto holds = [&](int targets) {
+    for (std::uint64_t tries = 0; tries < 20; ++tries) {
+      RandomStream random(static_cast<std::uint64_t>(targets), tries, kPushing);
+      if (spread_apart(targets, rules, random)) return true;
+    }
+    return false;
+  };
+  while (room > 0 && room < rules.most && holds(room + 1)) ++room;
+  return room;
 }
 
 /// Of places that no camera pair sees in a pose, the reason that is met most often.
