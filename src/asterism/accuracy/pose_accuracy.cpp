@@ -127,6 +127,21 @@ Result<PoseAccuracy, AccuracyFailure> predict_pose_accuracy(std::span<const Targ
   return accuracy;
 }
 
+Result<Mat3, AccuracyFailure> predict_point_covariance(const Vec3& in_tracker, const StereoRig& rig,
+                                                       double sigma_px) {
+  Mat3 information = Mat3::Zero();
+  for (const Side side : {Side::Left, Side::Right}) {
+    const RigidMotion camera_from_tracker = rig.camera_from_tracker(side);
+    const auto image = project(rig.lens(side), camera_from_tracker * in_tracker);
+    if (!image) return because(AccuracyFailure::BehindCamera);
+    const Mat23 by_point = image->by_point * camera_from_tracker.rotation.toRotationMatrix();
+    information += by_point.transpose() * by_point / (sigma_px * sigma_px);
+  }
+  const auto covariance = inverse_positive(MatX(information));
+  if (!covariance) return because(AccuracyFailure::NotDetermined);
+  return Mat3(*covariance);
+}
+
 double error_at_point_mm(const RigidMotion& tracker_from_body, const Mat6& covariance, const Vec3& in_body) {
   return std::sqrt(covariance_of_point(tracker_from_body, covariance, in_body).trace());
 }

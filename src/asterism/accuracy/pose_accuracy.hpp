@@ -38,6 +38,11 @@ struct PoseAccuracy {
     std::span<const Target> targets, const std::array<TargetMask, 2>& seen,
     const RigidMotion& tracker_from_body, const StereoRig& rig, const AccuracyOptions& options);
 
+/// Covariance (mm²) of a point that both cameras see, from centres known to `sigma_px`: for parallel cameras
+/// σ_z = √2 σ z² / (b f) along the axis, σ z / (√2 f) across it.
+[[nodiscard]] Result<Mat3, AccuracyFailure> predict_point_covariance(const Vec3& in_tracker,
+                                                                     const StereoRig& rig, double sigma_px);
+
 /// √tr of the covariance of a point fixed in the body, mm.
 [[nodiscard]] double error_at_point_mm(const RigidMotion& tracker_from_body, const Mat6& covariance,
                                        const Vec3& in_body);
