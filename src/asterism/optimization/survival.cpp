@@ -19,11 +19,14 @@ namespace {
 constexpr std::size_t kLargestSurface = 2000;
 
 Survival resolved(Survival survival, std::size_t m) {
-  if (survival == Survival::ReferencePoints ||
-      (survival == Survival::HypervolumeContribution && (m < 2 || m > 3)))
-    throw InputError(fmt::format("survival: of {} objectives, survivors are chosen by crowding", m));
+  if (survival == Survival::HypervolumeContribution && (m < 2 || m > 3))
+    throw InputError(
+        fmt::format("survival: hypervolume contributions are known for two and three objectives, not for {}; "
+                    "take automatic, reference points or crowding",
+                    m));
   if (survival != Survival::Automatic) return survival;
-  return m == 2 || m == 3 ? Survival::HypervolumeContribution : Survival::Crowding;
+  if (m == 1) return Survival::Crowding;
+  return m <= 3 ? Survival::HypervolumeContribution : Survival::ReferencePoints;
 }
 
 }  // namespace
@@ -104,17 +107,31 @@ void SurvivorSelection::select_in_niche(const Contenders& contenders, std::span<
 void SurvivorSelection::select_feasible(std::span<const double> objectives, std::size_t m,
                                         std::size_t places) {
   const Fronts& fronts = sort_(objectives, m);
-  for (std::size_t k = 0; k < fronts.count() && places > 0; ++k) {
+  const Survival survival = resolved(survival_, m);
+  for (std::size_t k = 0, left = places; k < fronts.count() && left > 0; ++k) {
     const auto front = fronts.front(k);
-    const std::size_t kept = std::min(places, front.size());
-    const Survival survival = resolved(survival_, m);
+    const std::size_t kept = std::min(left, front.size());
     const bool too_large = m == 3 && front.size() > kLargestSurface;
-    if (survival == Survival::HypervolumeContribution && !too_large)
+    if (survival == Survival::ReferencePoints)
+      thin_by_reference_points(objectives, m, k, kept, places);
+    else if (survival == Survival::HypervolumeContribution && !too_large)
       thin_by_hypervolume(objectives, m, front, static_cast<int>(k), kept);
     else
       thin_by_crowding(objectives, m, front, static_cast<int>(k), kept);
-    places -= kept;
+    left -= kept;
   }
+}
+
+/// Who survives is all that reference points tell: tournaments within a rank are draws.
+void SurvivorSelection::thin_by_reference_points(std::span<const double> objectives, std::size_t m,
+                                                 std::size_t rank, std::size_t places, std::size_t wanted) {
+  const auto front = sort_.fronts().front(rank);
+  const auto add = [&](std::uint32_t i) { survivors_.push_back({i, static_cast<int>(rank), 0}); };
+  if (places == front.size())
+    std::ranges::for_each(front, add);
+  else
+    for (const std::uint32_t at : niching_(objectives, m, sort_.fronts(), rank, places, wanted))
+      add(front[at]);
 }
 
 void SurvivorSelection::thin_by_crowding(std::span<const double> objectives, std::size_t m,

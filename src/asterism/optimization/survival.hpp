@@ -9,6 +9,7 @@
 #include "asterism/optimization/crowding.hpp"
 #include "asterism/optimization/front_thinning.hpp"
 #include "asterism/optimization/non_dominated_sort.hpp"
+#include "asterism/optimization/reference_points.hpp"
 #include "asterism/optimization/surface_thinning.hpp"
 
 namespace asterism {
@@ -33,7 +34,7 @@ struct Contenders {
 struct Survivor {
   std::uint32_t index;  // among the contenders
   int rank;             // 0 = first front of its niche; infeasible ones rank behind, by violation
-  double spread;        // crowding distance or hypervolume contribution; equal values mean a draw
+  double spread;        // crowding distance or hypervolume contribution, 0 with reference points
 };
 
 /// Chooses who lives on: feasible ones front by front, the first front that does not fit thinned as
@@ -52,6 +53,8 @@ class SurvivorSelection {
   void select_in_niche(const Contenders& contenders, std::span<const std::uint32_t> niche,
                        std::size_t places);
   void select_feasible(std::span<const double> objectives, std::size_t m, std::size_t places);
+  void thin_by_reference_points(std::span<const double> objectives, std::size_t m, std::size_t rank,
+                                std::size_t places, std::size_t wanted);
   void thin_by_crowding(std::span<const double> objectives, std::size_t m,
                         std::span<const std::uint32_t> front, int rank, std::size_t places);
   void thin_by_hypervolume(std::span<const double> objectives, std::size_t m,
@@ -74,6 +77,7 @@ class SurvivorSelection {
   CrowdingDistance crowding_;
   FrontThinning thinning_;
   SurfaceThinning surface_thinning_;
+  ReferencePointNiching niching_;
 };
 
 }  // namespace asterism

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "asterism/core/random.hpp"
+#include "asterism/core/result.hpp"
 
 namespace asterism {
 namespace {
@@ -124,7 +125,8 @@ TEST(SurvivorSelection, KeepsOneOfEachCopyBeforeAnyTwo) {
 
 TEST(SurvivorSelection, DoesNotDependOnTheOrderOfTheContenders) {
   const std::size_t count = 200;
-  for (const Survival how : {Survival::Crowding, Survival::HypervolumeContribution})
+  for (const Survival how :
+       {Survival::Crowding, Survival::HypervolumeContribution, Survival::ReferencePoints})
     for (const std::size_t m : {2, 3}) {
       const auto points = random_points(count, m, 61);
       std::vector<double> reversed;
@@ -136,6 +138,29 @@ TEST(SurvivorSelection, DoesNotDependOnTheOrderOfTheContenders) {
       for (auto& i : other) i = count - 1 - i;
       EXPECT_EQ(kept, other);
     }
+}
+
+TEST(SurvivorSelection, TakesEachWayForTheNumberOfObjectivesItIsMeantFor) {
+  for (const std::size_t m : {1, 2, 3, 4, 7}) {
+    const auto points = random_points(60, m, 63);
+    SurvivorSelection automatic;
+    SurvivorSelection expected(m == 1  ? Survival::Crowding
+                               : m < 4 ? Survival::HypervolumeContribution
+                                       : Survival::ReferencePoints);
+    EXPECT_EQ(indices(automatic({points, m}, 30)), indices(expected({points, m}, 30)));
+  }
+}
+
+TEST(SurvivorSelection, RefusesHypervolumeOfManyObjectives) {
+  SurvivorSelection select(Survival::HypervolumeContribution);
+  try {
+    select({random_points(9, 4, 65), 4}, 3);
+    FAIL() << "it took four objectives";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "survival: hypervolume contributions are known for two and three objectives, not for 4; "
+                 "take automatic, reference points or crowding");
+  }
 }
 
 TEST(SurvivorSelection, KeepsAllWhenMoreAreWantedThanThere) {
