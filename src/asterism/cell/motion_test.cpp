@@ -80,5 +80,16 @@ TEST(Sweep, TurnsAboutItsPivotByTheStatedAngles) {
   EXPECT_LT(difference(pose_at(sweep, 0), sweep.tracker_from_rest).norm(), 1e-9);
 }
 
+TEST(PosesBetween, TakesTheFirstAndTheLastMoment) {
+  Sweep sweep;
+  sweep.x = {100, 0.25, 0};
+  const auto poses = poses_between(sweep, 1, 3, 5);
+  ASSERT_EQ(poses.size(), 5U);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_LT(difference(poses[static_cast<std::size_t>(i)], pose_at(sweep, 1 + 0.5 * i)).norm(), 1e-12);
+  }
+  EXPECT_EQ(poses_between(sweep, 1, 3, 1).at(0).translation.x(), 100);
+}
+
 }  // namespace
 }  // namespace asterism
