@@ -184,16 +184,31 @@ void Island::archive_children() {
     const std::span<const double> violations = std::span(violations_of_).subspan((old + i) * c, c);
     if (std::ranges::any_of(violations, [](double v) { return v > 0; })) continue;
     const std::span<const double> objectives = std::span(objectives_of_).subspan((old + i) * m, m);
-    if (!archive_.add(objectives, archived_genes_.size())) continue;
-    archived_genes_.push_back(children_[i]);
+    const std::size_t number = free_numbers_.empty() ? archived_genes_.size() : free_numbers_.back();
+    if (!archive_.add(objectives, number)) continue;
+    if (free_numbers_.empty()) {
+      archived_genes_.push_back(children_[i]);
+    } else {
+      free_numbers_.pop_back();
+      archived_genes_[number] = children_[i];
+    }
+    const std::span<const std::size_t> dropped = archive_.dropped();
+    free_numbers_.insert(free_numbers_.end(), dropped.begin(), dropped.end());
   }
+}
+
+std::vector<Candidate> Island::archive() const {
+  std::vector<Candidate> candidates;
+  candidates.reserve(archive_.size());
+  for (ParetoArchive::Member& member : archive_.members())
+    candidates.push_back({archived_genes_[member.number], std::move(member.objectives),
+                          std::vector<double>(constraints_.size(), 0.0), 0});
+  return candidates;
 }
 
 IslandState Island::state() const {
   IslandState state = state_;
-  for (const auto& member : archive_.members())
-    state.archive.push_back(
-        {archived_genes_[member.index], member.f, std::vector<double>(constraints_.size(), 0.0), 0});
+  state.archive = archive();
   return state;
 }
 
@@ -201,6 +216,7 @@ void Island::restore(IslandState state) {
   state_ = std::move(state);
   archive_.clear();
   archived_genes_.clear();
+  free_numbers_.clear();
   for (Candidate& candidate : state_.archive) {
     archive_.add(candidate.objectives, archived_genes_.size());
     archived_genes_.push_back(std::move(candidate.genes));

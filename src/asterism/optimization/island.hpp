@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "asterism/optimization/archive.hpp"
 #include "asterism/optimization/duplicates.hpp"
 #include "asterism/optimization/optimizer.hpp"
-#include "asterism/optimization/simple_archive.hpp"
 #include "asterism/optimization/survival.hpp"
 
 namespace asterism {
@@ -35,6 +35,8 @@ class Island {
   /// They compete from the next generation on.
   void receive(std::vector<Candidate> immigrants) { state_.immigrants = std::move(immigrants); }
 
+  /// In lexicographic order of their objectives.
+  [[nodiscard]] std::vector<Candidate> archive() const;
   /// Without the archive, which `state` adds.
   [[nodiscard]] const IslandState& population() const { return state_; }
   [[nodiscard]] Candidate candidate(std::size_t i) const;
@@ -59,8 +61,9 @@ class Island {
   std::vector<ConstraintInfo> constraints_;
 
   IslandState state_;
-  SimpleArchive archive_;
-  std::vector<Genes> archived_genes_;  // by the index given to `archive_`
+  ParetoArchive archive_;
+  std::vector<Genes> archived_genes_;      // by the number given to `archive_`
+  std::vector<std::size_t> free_numbers_;  // of candidates that were driven out
 
   std::vector<std::uint32_t> parents_;  // two of each pair of children
   std::vector<std::uint32_t> shuffled_;

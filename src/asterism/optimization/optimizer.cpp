@@ -103,6 +103,7 @@ struct Optimizer::Run {
   [[nodiscard]] double hypervolume_of_front();
   [[nodiscard]] int generation() const { return history.empty() ? -1 : history.back().generation; }
   [[nodiscard]] bool stagnates() const;
+  void tell_closest(OptimizationResult& result) const;
   [[nodiscard]] std::optional<StopReason> stop_reason() const;
 
   const OptimizationProblem& problem;
@@ -273,33 +274,38 @@ void Optimizer::restore(const OptimizerState& state) {
 OptimizationResult Optimizer::result() const {
   OptimizationResult result;
   std::vector<Candidate> feasible;
-  bool all_infeasible = true;
-  const std::vector<ConstraintInfo> constraints = run_->problem.constraints();
   for (const auto& island : run_->islands) {
-    const IslandState state = island->state();
-    for (std::size_t i = 0; i < state.genes.size(); ++i) {
+    for (std::size_t i = 0; i < island->population().genes.size(); ++i) {
       result.population.push_back(island->candidate(i));
       if (!run_->options.archive && island->is_feasible(i)) feasible.push_back(island->candidate(i));
     }
-    feasible.insert(feasible.end(), state.archive.begin(), state.archive.end());
-    all_infeasible = all_infeasible && !state.closest.objectives.empty();
+    std::vector<Candidate> archive = island->archive();
+    std::ranges::move(archive, std::back_inserter(feasible));
   }
-  result.front = non_dominated(std::move(feasible), run_->m);
+  const bool is_front = run_->options.archive && run_->islands.size() == 1;
+  result.front = is_front ? std::move(feasible) : non_dominated(std::move(feasible), run_->m);
   result.front_checksum = checksum(result.front);
   result.history = run_->history;
   result.stopped = run_->stop_reason();
-  if (!all_infeasible) return result;
-  for (const auto& island : run_->islands) {
-    const Candidate& closest = island->population().closest;
-    if (result.closest.objectives.empty() || total_violation(closest.violations, constraints) <
-                                                 total_violation(result.closest.violations, constraints))
-      result.closest = closest;
-  }
-  for (std::size_t c = 0; c < constraints.size(); ++c) {
-    if (result.closest.violations[c] > 0)
-      result.shortfalls.push_back({constraints[c], result.closest.violations[c]});
-  }
+  run_->tell_closest(result);
   return result;
+}
+
+/// Where no island has ever seen a feasible candidate.
+void Optimizer::Run::tell_closest(OptimizationResult& result) const {
+  const std::vector<ConstraintInfo> constraints = problem.constraints();
+  const Candidate* nearest = nullptr;
+  for (const auto& island : islands) {
+    const Candidate& closest = island->population().closest;
+    if (closest.objectives.empty()) return;
+    if (nearest == nullptr ||
+        total_violation(closest.violations, constraints) < total_violation(nearest->violations, constraints))
+      nearest = &closest;
+  }
+  result.closest = *nearest;
+  for (std::size_t c = 0; c < constraints.size(); ++c) {
+    if (nearest->violations[c] > 0) result.shortfalls.push_back({constraints[c], nearest->violations[c]});
+  }
 }
 
 OptimizationResult optimize(const OptimizationProblem& problem, const OptimizerOptions& options,

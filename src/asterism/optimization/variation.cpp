@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSameGene = 1e-14;  // parents nearer than this have one gene, as in Deb's code
 
-/// In (0, 1), never 0, so that roots and inverses of it are finite.
+/// In (0, 1), never 0, so that roots and inverses of it are finite; 32 bits are fine enough for a mutation.
 double open_uniform(RandomStream& random) { return (static_cast<double>(random.bits()) + 0.5) * 0x1.0p-32; }
 
 /// Genes that cross, at most 32 at a time.
@@ -88,7 +88,7 @@ void Variation::cross(std::span<const double> mother, std::span<const double> fa
     for (std::size_t i = 0; i < count; ++i) daughter[i] = son[i] = 0.5 * (mother[i] + father[i]);
     return;
   }
-  if (random.uniform() >= options_.crossover_probability) return;
+  if (open_uniform(random) >= options_.crossover_probability) return;
   Crossing crossing;
   std::array<std::size_t, Crossing::kMost> gene;
   for (std::size_t first = 0; first < count; first += Crossing::kMost) {
@@ -121,24 +121,24 @@ void Variation::mutate(std::span<double> genes, std::span<const double> lowest,
   if (count == 0) return;
   const double spared = 1 - std::min(1.0, options_.mutations / static_cast<double>(count));
   const double four_spared = spared * spared * (spared * spared);
-  const int power = options_.mutation_index + 1;
   for (std::size_t i = 0;; ++i) {
     // One number tells how many genes are spared until the next mutation.
-    const double u = random.uniform();
+    const double u = open_uniform(random);
     double all_spared = 1;
     for (; u < all_spared * four_spared && i < count; i += 4) all_spared *= four_spared;
     for (; u < all_spared * spared && i < count; ++i) all_spared *= spared;
     if (i >= count) return;
     const double range = highest[i] - lowest[i];
-    const double v = open_uniform(random);
-    if (range > 0) {
-      const double gene = std::clamp(genes[i], lowest[i], highest[i]);
-      const bool down = v < 0.5;
-      const double room = (down ? gene - lowest[i] : highest[i] - gene) / range;
-      const double side = down ? 2 * v : 2 * (1 - v);
-      const double step = 1 - mutation_root_(side + (1 - side) * integer_power(1 - room, power));
-      genes[i] = std::clamp(gene + (down ? -step : step) * range, lowest[i], highest[i]);
-    }
+    const double v = 2 * open_uniform(random);
+    if (!(range > 0)) continue;
+    const double gene = std::clamp(genes[i], lowest[i], highest[i]);
+    // Down with v in (0, 1), up with v in (1, 2); without a branch that nobody could foretell.
+    const double way = v < 1 ? -1 : 1;
+    const double side = std::min(v, 2 - v);
+    const double room = (v < 1 ? gene - lowest[i] : highest[i] - gene) / range;
+    const double step =
+        1 - mutation_root_(side + (1 - side) * integer_power(1 - room, options_.mutation_index + 1));
+    genes[i] = std::clamp(gene + way * step * range, lowest[i], highest[i]);
   }
 }
 
