@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "peers/pagmo.hpp"
+#include "pagmo.hpp"
 
 #include <ctime>
 #include <pagmo/algorithm.hpp>
@@ -56,7 +56,10 @@ PeerRun pagmo_nsga2(const RealProblem& problem, int population, int generations,
     for (const pagmo::vector_double& f : people.get_f())
       run.objectives.insert(run.objectives.end(), f.begin(), f.end());
   } catch (const std::exception& error) {
-    run.refusal = error.what();
+    // Of its message, the line that says why.
+    const std::string message = error.what();
+    const std::size_t why = message.find("what: ");
+    run.refusal = message.substr(why == std::string::npos ? 0 : why + 6);
   }
   return run;
 }
