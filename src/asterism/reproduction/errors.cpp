@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "asterism/layout/paper_layouts.hpp"
+#include "asterism/reproduction/chapters.hpp"
+#include "asterism/reproduction/comparison_claims.hpp"
+#include "asterism/reproduction/disturbance.hpp"
+#include "asterism/reproduction/errors_figures.hpp"
+#include "asterism/reproduction/printed.hpp"
+
+namespace asterism {
+namespace {
+
+constexpr double kStatedSigmaMm = 0.1, kFittedSigmaPx = 0.20;
+constexpr std::size_t kExperiments = 400;
+
+std::string text_of(const ExpectedErrors& e) {
+  return fmt::format("{:.4f}/{:.3f}/{:.4f}/{:.3f}", e.mean_rotation_deg.mean, e.max_rotation_deg.mean,
+                     e.mean_translation_mm.mean, e.max_translation_mm.mean);
+}
+
+bool fits(const printed::PoseErrors& print, const ExpectedErrors& e) {
+  return drawn_fits(print.mean_rotation_deg, e.mean_rotation_deg.mean, e.mean_rotation_deg.deviation) &&
+         drawn_fits(print.max_rotation_deg, e.max_rotation_deg.mean, e.max_rotation_deg.deviation) &&
+         drawn_fits(print.mean_translation_mm, e.mean_translation_mm.mean, e.mean_translation_mm.deviation) &&
+         drawn_fits(print.max_translation_mm, e.max_translation_mm.mean, e.max_translation_mm.deviation);
+}
+
+void add_table13(std::vector<LedgerRow>& rows, std::uint64_t seed) {
+  for (std::size_t s = 0; s < 3; ++s) {
+    const printed::PoseErrors& print = printed::kTable13[s];
+    const auto& targets = paper_table1()[s].targets;
+    const ExpectedErrors images =
+        expect_errors(targets, Disturbance::Images, kFittedSigmaPx, printed::kRuns, kExperiments, seed);
+    const ExpectedErrors stated =
+        expect_errors(targets, Disturbance::Isotropic, kStatedSigmaMm, printed::kRuns, kExperiments, seed);
+    rows.push_back(
+        compare_readings({fmt::format("T13.S{}", s + 1), "Table 13",
+                          fmt::format("S{} mean/max rotation, deg; mean/max translation, mm", s + 1),
+                          print.mean_rotation_deg + "/" + print.max_rotation_deg + "/" +
+                              print.mean_translation_mm + "/" + print.max_translation_mm},
+                         {{fmt::format("two cameras 1 m apart, 2 m away, 60° up, {} px; least-squares pose "
+                                       "of Table 1's targets; 50 runs",
+                                       kFittedSigmaPx),
+                           text_of(images), fits(print, images)},
+                          {fmt::format("isotropic noise of {} mm as in Section 3.3", kStatedSigmaMm),
+                           text_of(stated), fits(print, stated)}},
+                         "The noise of these simulations and the cameras are not told"));
+  }
+}
+
+/// Figures 21 and 22 and the text about them, where other places of the paper tell the same quantity.
+void add_traces(std::vector<LedgerRow>& rows, std::uint64_t seed) {
+  const std::string baseline = "how the pose was found without targets is not told, and no data are given";
+  const auto undefined = [&](const char* id, const char* where, const char* quantity, const char* published) {
+    rows.push_back(not_computable({id, where, quantity, published}, baseline));
+  };
+  double largest = 0, mean = 0;
+  for (const printed::PoseErrors& print : printed::kTable13) {
+    largest = std::max(largest, std::stod(print.max_translation_mm));
+    mean += std::stod(print.mean_rotation_deg) / 3;
+  }
+  const PoseErrorSample trace =
+      disturb_images(paper_table1()[0].targets, kFittedSigmaPx, 400, seed, 1U << 20);
+  const auto share = [](const std::vector<double>& values, double low, double high) {
+    return 100.0 *
+           static_cast<double>(
+               std::count_if(values.begin(), values.end(), [&](double v) { return v >= low && v <= high; })) /
+           static_cast<double>(values.size());
+  };
+  const std::string model =
+      "400 poses of S1 with the noise that gives Table 13; the figure's own noise is not told";
+  const std::string in_t =
+      fmt::format("{:.0f} % within 0.05 to 0.2 mm", share(trace.translation_mm, 0.05, 0.2));
+  const std::string in_r =
+      fmt::format("{:.0f} % within 0.015 to 0.07 deg", share(trace.rotation_deg, 0.015, 0.07));
+  const std::string open = "the errors over time are drawn, not printed; our model puts most of them there";
+  rows.push_back(not_computable(
+      {"P.F21.with_low", "Fig. 21", "translation error with targets, from mm", "0.05"}, open, in_t, model));
+  rows.push_back(not_computable(
+      {"P.F21.with_high", "Fig. 21", "translation error with targets, to mm", "0.2"}, open, in_t, model));
+  rows.push_back(judge({"P.F21.with_max", "Fig. 21", "largest translation error with targets, mm", "0.25"},
+                       fmt::format("{:.3f}", largest), largest <= 0.25, {"largest of Table 13", "", ""}));
+  undefined("P.F21.without_max", "Fig. 21", "largest translation error without targets, mm", "0.8");
+  rows.push_back(not_computable(
+      {"P.F22.with_low", "Fig. 22", "rotation error with targets, from deg", "0.015"}, open, in_r, model));
+  rows.push_back(not_computable({"P.F22.with_high", "Fig. 22", "rotation error with targets, to deg", "0.07"},
+                                open, in_r, model));
+  rows.push_back(compare({"P.F22.with_mean", "Fig. 22", "mean rotation error with targets, deg", "0.035"},
+                         mean, {"mean of Table 13's three means", "", ""}));
+  undefined("P.F22.without_mean", "Fig. 22", "mean rotation error without targets, deg", "0.055");
+  undefined("P.F22.without_max", "Fig. 22", "largest rotation error without targets, deg", "0.11");
+}
+
+void add_conclusion(std::vector<LedgerRow>& rows) {
+  const double centre = interval_of_table14(0).centre();
+  rows.push_back(not_computable(
+      {"P.C.rot_before", "Conclusion", "rotation error before, deg", "0.055"},
+      "Section 4.3 says the same of Fig. 22, but how the pose was found without targets is not told",
+      "0.055 in Section 4.3"));
+  rows.push_back(compare({"P.C.rot_after", "Conclusion", "rotation error after, deg", "0.035"},
+                         std::stod(printed::kTable13[0].mean_rotation_deg),
+                         {"mean of S1 in Table 13", "", "S3, the scheme praised, has 0.034"}));
+  rows.push_back(not_computable({"P.C.trans_before", "Conclusion", "translation error before, mm", "0.31"},
+                                "no table, figure or text of the experiment gives it"));
+  std::vector<Reading> after = {{"centre of S1's interval in Table 14", fmt::format("{:.4f}", centre),
+                                 std::abs(centre - 0.162) <= 0.0005}};
+  for (std::size_t s = 0; s < 3; ++s) {
+    after.push_back({fmt::format("mean of S{} in Table 13", s + 1), printed::kTable13[s].mean_translation_mm,
+                     std::abs(std::stod(printed::kTable13[s].mean_translation_mm) - 0.162) <= 0.0005});
+  }
+  rows.push_back(compare_readings(
+      {"P.C.trans_after", "Conclusion, abstract", "translation error after, mm", "0.162"}, after,
+      "Which mean is meant is not told, and the paper's tables contradict one another"));
+  rows.push_back(compare({"P.C.rot_decrease", "Conclusion", "fall of the rotation error, %", "36"},
+                         100 * (1 - 0.035 / 0.055), {"1 − 0.035 / 0.055", "", ""}));
+  rows.push_back(compare({"P.C.trans_decrease", "Conclusion", "fall of the translation error, %", "48"},
+                         100 * (1 - 0.162 / 0.31),
+                         {"1 − 0.162 / 0.31", "", "with Table 13's 0.099 it would be 68 %"}));
+}
+
+void add_specification(std::vector<LedgerRow>& rows) {
+  const std::string data_sheet = "a figure of the device's data sheet, which the paper does not give";
+  rows.push_back(not_computable(
+      {"P.43.tracker_nominal_accuracy", "Section 4.3", "nominal accuracy of the tracker, mm", "0.025"},
+      data_sheet));
+  double largest = 0;
+  for (const printed::PoseErrors& print : printed::kTable13) {
+    largest = std::max(largest, std::stod(print.max_translation_mm));
+  }
+  rows.push_back(judge(
+      {"P.43.maximum_allowable_error", "Section 4.3", "errors stay below the largest allowed, mm", "0.25"},
+      fmt::format("{:.3f}", largest), largest <= 0.25, {"largest of Table 13", "", ""}));
+}
+
+}  // namespace
+
+Chapter errors_chapter(std::uint64_t seed) {
+  Chapter chapter{"Errors of the pose (Section 4.3, conclusion)", {}, errors_exhibits(seed)};
+  add_table13(chapter.rows, seed);
+  for (LedgerRow& row : rows_of_comparisons()) chapter.rows.push_back(std::move(row));
+  add_traces(chapter.rows, seed);
+  add_specification(chapter.rows);
+  add_conclusion(chapter.rows);
+  return chapter;
+}
+
+}  // namespace asterism
