@@ -28,5 +28,6 @@ void add_track(CLI::App& root, Common& common);
 void add_evaluate(CLI::App& root, Common& common);
 void add_simulate(CLI::App& root, Common& common);
 void add_body(CLI::App& root, Common& common);
+void add_reproduce(CLI::App& root, Common& common);
 
 }  // namespace asterism::app

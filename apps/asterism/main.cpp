@@ -26,7 +26,7 @@ using AddCommand = void (*)(CLI::App&, Common&);
 /// In the order of `asterism --help`.
 const std::vector<AddCommand> kCommands = {add_demo,     add_calibrate,   add_check_rig, add_body,
                                            add_detect,   add_triangulate, add_identify,  add_track,
-                                           add_evaluate, add_simulate};
+                                           add_evaluate, add_simulate,    add_reproduce};
 
 const CLI::App* called_command(const CLI::App& root) {
   const std::vector<const CLI::App*> called =
