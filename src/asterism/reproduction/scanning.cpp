@@ -64,6 +64,10 @@ void add_start(std::vector<LedgerRow>& rows, const ScanRings& upright) {
       {"P.43.initial_scan_z", "Section 4.3", "first scanning position, z mm", "499"}, nearest.z(),
       {definition,
        fmt::format("its radius is that of the ring at z = 400; at 499 the cone has {:.2f} mm", radius), ""}));
+  rows.push_back(judge(
+      {"S43.init", "Section 4.3", "first scanning position is a station, mm", "(789.48, -125.04, 499)"},
+      fmt::format("({:g}, {:g}, {:g})", nearest.x(), nearest.y(), nearest.z()),
+      (nearest - start).norm() < 0.01, {definition, "y has the other sign and z is 400 in Table 15", ""}));
   const double angle = deg_from_rad(std::atan(upright.slope));
   const Account cone{fmt::format("half-angle of the cone through Table 15: radius = {:.2f} + {:.4f} z",
                                  upright.radius_at_zero_mm, upright.slope),
