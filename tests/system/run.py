@@ -167,6 +167,24 @@ class System(unittest.TestCase):
         other.write_text("frame,body,x_mm,y_mm,z_mm,qw,qx,qy,qz\n9,part,0,0,0,1,0,0,0\n")
         self.refused("no frame of", "evaluate", self.at / "out/poses.csv", "--truth", other, status=3)
 
+    def test_reproduce_gives_each_number_of_the_paper_a_verdict(self):
+        told = json.loads(self.run_program("reproduce", "--out", self.at / "paper", "--json").stdout)
+        ledger = (self.at / "paper/ledger.csv").read_text().splitlines()
+        self.assertEqual(ledger[0], "id,where,quantity,published,computed,definition,verdict,reason")
+        self.assertEqual(len(ledger) - 1, told["rows"])
+        self.assertEqual(sum(told["verdicts"].values()), told["rows"])
+        self.assertIn("<svg", (self.at / "paper/reproduction.html").read_text())
+        text = self.run_program("reproduce", "--out", self.at / "one", "--only", "T10", "T2.3.s").stdout
+        self.assertIn("16 quantities of the paper", text)
+
+    def test_reproduce_refuses_what_it_cannot_do(self):
+        self.refused("--out is required", "reproduce")
+        self.refused("`T10.S1.f9` is no row, table or figure of the paper; did you mean `T10.S1.f1`?",
+                     "reproduce", "--out", self.at / "paper", "--only", "T10.S1.f9")
+        self.assertFalse((self.at / "paper").exists())
+        (self.at / "file").write_text("")
+        self.refused("file", "reproduce", "--out", self.at / "file")
+
     def test_any_number_of_threads_gives_the_same_bits(self):
         self.recording()
         for threads in (1, 2):
