@@ -69,7 +69,7 @@ ASTERISM_INLINE Distorted distort_lanes(const LensForLanes& of, const DoubleLane
 ASTERISM_INLINE PixelLanes pixels_of(const LensForLanes& of, const DoubleLanes& x, const DoubleLanes& y) {
   const Lens& lens = of.lens;
   if (lens.coefficients == 0) {
-    const DoubleLanes zero = x - x;
+    const DoubleLanes zero{};
     return {lens.fx * x + lens.skew * y + lens.cx,
             lens.fy * y + lens.cy,
             zero + lens.fx,
