@@ -35,7 +35,7 @@ LossDraw measure(std::span<const Vec3> left, const Vec3& full_centroid, LayoutCo
   for (std::size_t i = 0; i < left.size(); ++i) {
     for (std::size_t j = i + 1; j < left.size(); ++j) draw.coverage_mm += (left[i] - left[j]).norm();
   }
-  const auto pairs = static_cast<double>(left.size() * (left.size() - 1) / 2);
+  const double pairs = static_cast<double>(left.size() * (left.size() - 1)) / 2;
   switch (cost) {
     case LayoutCost::DistanceToOwnCentroid:
       draw.cost_mm = mean_distance(left, centroid_of(left));

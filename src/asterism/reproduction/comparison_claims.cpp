@@ -42,7 +42,7 @@ void add_intervals(std::vector<LedgerRow>& rows) {
                       expected.high, sample.mean, sample.deviation),
           maxwell},
          {"t interval of Table 13's translation errors", "mean " + table13, same_runs}},
-        "Which error the interval is of is not told"));
+        "which error the interval is of is not told"));
   }
 }
 

@@ -69,7 +69,8 @@ Exhibit construction(const std::string& id, const std::string& title, bool whole
     drawing.arrow(p[0], p[2], "s2", "V2");
     drawing.arrow(p[0], p[3], "s2", "V3");
     const Vec3 n = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
-    drawing.arrow(p[0], p[0] + 220 * n, "s3", "n = V1 × V2");
+    drawing.arrow(p[0], p[0] + 220 * n, "s3");
+    drawing.point(p[0] + 220 * n, "s3", "n = V1 × V2", 0);
   }
   return {id, title,
           whole ? "n is at right angles to V1 and V2, but V1 and V2 are not to one another: [V1 V2 n] is no "
@@ -129,8 +130,8 @@ std::vector<Exhibit> frames_exhibits() {
                                     "?V1 × V2 ≠ 0", "z = V1 × V2, x = V1, y = z × x, to length 1",
                                     "origin C = mean of all targets", "p′ = Rᵀ (p − C)"},
                                    1, "Steps of the construction of a frame")};
-  return {table1(),
-          table2(),
+  return {table2(),
+          table1(),
           figure6,
           construction("F7", "Figure 7. Origin and first axis", false),
           construction("F8", "Figure 8. Vectors and normal", true),

@@ -60,7 +60,7 @@ LedgerRow row_over(const std::vector<Extremes>& tried, const Claim& claim, const
                                   [&](const Reading& r) { return r.fits != readings.front().fits; });
   return compare_readings(
       claim, {readings.front(), *other},
-      fmt::format("Place of the tracker, tilt and acceptance of the targets are not told; {} of {} "
+      fmt::format("place of the tracker, tilt and acceptance of the targets are not told; {} of {} "
                   "sets tried give it",
                   fitting, tried.size()));
 }

@@ -16,19 +16,19 @@ std::vector<Exhibit> motion_exhibits() {
     turn_x.emplace_back(sight.time_s, deg_from_rad(sight.turn_x_rad));
     turn_y.emplace_back(sight.time_s, deg_from_rad(sight.turn_y_rad));
   }
-  Plot seen({"time, s", 0, 12, {}}, {"targets seen", 0, 9, {}}, 620, 260);
+  Plot seen({"time, s", 0, 12, {}}, {"targets seen", 0, 9, {}}, 370, 270);
   seen.level(4, "needed: 4", "s2 dashed");
   seen.line(visible, "s1");
-  Plot field({"time, s", 0, 12, {}}, {"coverage coefficient", 0, 1.1, {}}, 620, 240);
+  Plot field({"time, s", 0, 12, {}}, {"coverage coefficient", 0, 1.1, {}}, 370, 270);
   field.level(0.6, "0.6", "s2 dashed");
   field.line(coverage, "s3");
-  Plot motion({"time, s", 0, 12, {}}, {"turn, deg", -20, 20, {}}, 620, 220);
+  Plot motion({"time, s", 0, 12, {}}, {"turn, deg", -20, 20, {}}, 370, 270);
   motion.line(turn_x, "s1");
   motion.line(turn_y, "s2");
   motion.legend({{"s1", "about x"}, {"s2", "about y"}});
-  const std::string html = "<figure>" + seen.str("Targets seen over time") + "</figure><figure>" +
-                           field.str("Coverage coefficient over time") + "</figure><figure>" +
-                           motion.str("Motion of the platform") + "</figure>";
+  const std::string html = "<div class=\"row\"><figure>" + seen.str("Targets seen over time") +
+                           "</figure><figure>" + field.str("Coverage coefficient over time") +
+                           "</figure><figure>" + motion.str("Motion of the platform") + "</figure></div>";
   return {{"F20", "Figure 20. Targets seen and field of view over the motion",
            "A model that gives what the text tells of the figure: tracker 2 m away, 60° up, 45° aside, cone "
            "±25°; eight targets on "

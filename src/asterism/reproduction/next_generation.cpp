@@ -78,7 +78,7 @@ LedgerRow row_of_reach(std::uint64_t seed) {
       {"T11.1", "Table 11", "row 1, a child of the five schemes, (f1, f2) mm",
        "(" + printed::kTable11[0].f1_mm + ", " + printed::kTable11[0].f2_mm + ")"},
       readings,
-      fmt::format("Bounds and seed are not told; {} children by one crossover and mutation", kChildren));
+      fmt::format("bounds and seed are not told; {} children by one crossover and mutation", kChildren));
 }
 
 LedgerRow row_of_small_child(std::uint64_t seed) {
