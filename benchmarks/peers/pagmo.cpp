@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pagmo.hpp"
 
+#include <algorithm>
 #include <ctime>
 #include <pagmo/algorithm.hpp>
 #include <pagmo/algorithms/nsga2.hpp>
@@ -56,10 +57,11 @@ PeerRun pagmo_nsga2(const RealProblem& problem, int population, int generations,
     for (const pagmo::vector_double& f : people.get_f())
       run.objectives.insert(run.objectives.end(), f.begin(), f.end());
   } catch (const std::exception& error) {
-    // Of its message, the line that says why.
+    // Of its message, what says why: "…what: Non linear constraints detected in NAME instance…".
     const std::string message = error.what();
     const std::size_t why = message.find("what: ");
     run.refusal = message.substr(why == std::string::npos ? 0 : why + 6);
+    run.refusal.resize(std::min(run.refusal.size(), run.refusal.find(" in ")));
   }
   return run;
 }
