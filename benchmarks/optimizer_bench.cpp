@@ -17,8 +17,8 @@
 #include "asterism/optimization/hypervolume.hpp"
 #include "asterism/optimization/optimizer.hpp"
 #include "asterism/optimization/problems_for_tests.hpp"
+#include "asterism/reproduction/papers_run.hpp"
 #include "bench.hpp"
-#include "four_targets.hpp"
 #include "peers/pagmo.hpp"
 
 namespace asterism::bench {
@@ -150,7 +150,7 @@ void papers_problem(int seeds) {
                   "generations, {} seeds; hypervolume in mm² up to (1200, 0); Octave runs Tables 3-7, once",
                   seeds),
       kColumns);
-  const FourTargets problem;
+  const PapersProblem problem;
   std::vector<Engine> all = engines(50, 52, 100);
   std::vector<Samples> samples = sample(problem, all, {1200, 0}, seeds);
   const std::string scripts = ASTERISM_PEERS;
@@ -185,7 +185,7 @@ void papers_extremes() {
     options.population = population;
     options.generations = generations;
     double nearest = 1e9, widest = 0;
-    for (const Candidate& candidate : optimize(FourTargets(), options).front) {
+    for (const Candidate& candidate : optimize(PapersProblem(), options).front) {
       nearest = std::min(nearest, candidate.objectives[0]);
       widest = std::max(widest, -candidate.objectives[1]);
     }
