@@ -38,7 +38,7 @@ void SpaceDrawing::arrow(const Vec3& from, const Vec3& to, std::string style, st
 void SpaceDrawing::point(const Vec3& at, std::string style, std::string label, double radius_px) {
   add(Kind::Point, {at}, std::move(style), std::move(label), radius_px);
 }
-void SpaceDrawing::loop(std::vector<Vec3> points, std::string style) {
+void SpaceDrawing::loop(const std::vector<Vec3>& points, std::string style) {
   add(Kind::Loop, points, std::move(style), "");
 }
 

@@ -18,7 +18,7 @@ class SpaceDrawing {
   /// Its label stands at its middle, a point's beside it.
   void arrow(const Vec3& from, const Vec3& to, std::string style, std::string label = "");
   void point(const Vec3& at, std::string style, std::string label = "", double radius_px = 4.5);
-  void loop(std::vector<Vec3> points, std::string style);
+  void loop(const std::vector<Vec3>& points, std::string style);
   /// Three arrows of `length` along the axes of `world_from_frame`, and the origin's name.
   void axes(const RigidMotion& world_from_frame, double length, const std::string& name);
 
