@@ -8,7 +8,7 @@ namespace asterism {
 namespace {
 
 const char* const kStyle = R"(
-:root{--ground:#fbfbf9;--card:#fff;--ink:#20252b;--soft:#68727d;--rule:#dfe2e6;--grid:#e9ebee;
+:root{color-scheme:light dark;--ground:#fbfbf9;--card:#fff;--ink:#20252b;--soft:#68727d;--rule:#dfe2e6;--grid:#e9ebee;
 --s1:#1f6fb4;--s2:#c8501e;--s3:#1d8a68;--s4:#a3559b;--s5:#b98210;--good:#1d7d4f;--mc:#1f6fb4;--bad:#b3351b;--open:#7a6a2b}
 @media(prefers-color-scheme:dark){:root{--ground:#15181c;--card:#1c2026;--ink:#e4e7ea;--soft:#98a2ad;--rule:#333a42;--grid:#2a3037;
 --s1:#6db1ea;--s2:#ef8a5a;--s3:#58c79f;--s4:#d18ccb;--s5:#e2b34c;--good:#62c792;--mc:#6db1ea;--bad:#f08a72;--open:#d4bf6a}}

@@ -103,7 +103,8 @@ LedgerRow row_of_depth() {
   const StereoRig rig = stereo_rig();
   double worst = 0;
   for (int i = 0; i < 200; ++i) {
-    const Vec3 point(200 + 3.0 * (i % 20), -150 + 15.0 * (i / 10), 1800 + 4.0 * i);
+    const int row = i / 10;
+    const Vec3 point(200 + 3.0 * (i % 20), -150 + 15.0 * row, 1800 + 4.0 * i);
     const auto left = project(rig.left, point), right = project(rig.right, rig.right_from_left * point);
     if (!left || !right) continue;
     const double depth = rig.baseline_mm() * rig.left.fx / (left->px.x() - right->px.x());
