@@ -81,6 +81,7 @@ struct AnovaCase {
   const char* file;
   double digits;  // what the binary data allow
 };
+void PrintTo(const AnovaCase& one, std::ostream* out) { *out << one.file; }
 
 class CertifiedAnova : public testing::TestWithParam<AnovaCase> {};
 
