@@ -8,63 +8,15 @@
 
 #include "asterism/core/result.hpp"
 #include "asterism/geometry/rigid_fit.hpp"
+#include "asterism/layout/fit_moments.hpp"
+#include "asterism/layout/pair_distances.hpp"
 
 namespace asterism {
 namespace {
 
 constexpr std::size_t kMost = 64;
 
-/// Distances between all points, row by row.
-std::vector<double> distances_of(std::span<const Vec3> points) {
-  std::vector<double> distances;
-  distances.reserve(points.size() * points.size());
-  for (const Vec3& a : points) {
-    for (const Vec3& b : points) distances.push_back((a - b).norm());
-  }
-  return distances;
-}
-
-/// What the RMS of pairs of points depends on, as they are added and taken away.
-struct Moments {
-  double count = 0;
-  Vec3 sum_a = Vec3::Zero(), sum_b = Vec3::Zero();
-  Mat3 cross = Mat3::Zero();
-  double squares = 0;
-
-  void add(const Vec3& a, const Vec3& b) {
-    count += 1;
-    sum_a += a;
-    sum_b += b;
-    cross += a * b.transpose();
-    squares += a.squaredNorm() + b.squaredNorm();
-  }
-};
-
-/// No more than the sum of the squared residuals of the best proper rigid fit, and hardly less: the largest
-/// root of λ⁴ − 2|S|²λ² − 8 det(S) λ + |S|⁴ − 4|cof S|², by Newton's method from above (Horn 1987,
-/// Theobald 2005). Near a double root, as of flat layouts, it is known to the square root of rounding.
-double least_squares_sum(const Moments& m) {
-  const Mat3 s = m.cross - m.sum_a * m.sum_b.transpose() / m.count;
-  const double spread = m.squares - (m.sum_a.squaredNorm() + m.sum_b.squaredNorm()) / m.count;
-  const Vec3 minors0 = s.col(1).cross(s.col(2));
-  const double norm2 = s.squaredNorm();
-  const double minors2 =
-      minors0.squaredNorm() + s.col(2).cross(s.col(0)).squaredNorm() + s.col(0).cross(s.col(1)).squaredNorm();
-  const double c1 = -8.0 * s.col(0).dot(minors0);
-  const double c0 = norm2 * norm2 - 4.0 * minors2;
-  double root = 0.5 * spread;
-  for (int i = 0; i < 40; ++i) {
-    const double square = root * root;
-    const double value = square * (square - 2.0 * norm2) + c1 * root + c0;
-    const double slope = 4.0 * root * (square - norm2) + c1;
-    if (!(slope > 0)) break;
-    const double step = value / slope;
-    root -= step;
-    if (std::abs(step) < 1e-12 * root) break;
-  }
-  constexpr double kDoubleRoot = 2e-7;
-  return spread - 2.0 * root - kDoubleRoot * spread;
-}
+std::uint64_t bit(std::size_t index) { return std::uint64_t{1} << index; }
 
 class Search {
  public:
@@ -74,7 +26,9 @@ class Search {
         fewest_(static_cast<std::size_t>(options.fewest_seen)),
         steps_left_(options.max_steps),
         between_points_(distances_of(points)),
-        between_pattern_(distances_of(pattern)) {
+        between_pattern_(distances_of(pattern)),
+        pairs_of_points_(pairs_by_distance(points)),
+        pairs_of_pattern_(pairs_by_distance(pattern)) {
     // About the middle, so that sums of squares lose no digits.
     Vec3 middle = Vec3::Zero();
     for (const Vec3& p : points) middle += p / static_cast<double>(points.size());
@@ -92,11 +46,38 @@ class Search {
     }
   }
 
-  /// Everything below `cap_mm`, or nothing.
+  /// Of `fewest_` targets, everything below `cap_mm`, or nothing.
   void run(double cap_mm) {
     best_mean_square_ = cap_mm * cap_mm;
-    extend(0, 0, 0.0, Moments{});
-    if (same_body_) mistake_one();
+    start_from_pairs();
+  }
+
+  /// More than `fewest_` seen, one of them taken for a target that is not.
+  void mistake_one() {
+    for (std::size_t wrong = 0; wrong < points_.size(); ++wrong) {
+      for (std::size_t label = 0; label < pattern_.size(); ++label) {
+        if (label == wrong) continue;
+        others_.clear();
+        const auto seen_at_most = static_cast<double>(points_.size());
+        const double largest = seen_at_most * seen_at_most * best_mean_square_;
+        for (std::size_t j = 0; j < points_.size(); ++j) {
+          if (j == wrong || j == label) continue;
+          const double off =
+              between_points_[wrong * points_.size() + j] - between_points_[label * points_.size() + j];
+          if (off * off < largest) others_.push_back({off * off, j});
+        }
+        if (others_.size() < fewest_) continue;
+        std::sort(others_.begin(), others_.end());
+        if (!others_allow_a_fit()) continue;
+        seen_[0] = wrong;
+        label_[0] = label;
+        label_count_ = 1;
+        FitMoments moments;
+        moments.add(points_[wrong], pattern_[label]);
+        keep_more(0, bit(wrong), moments);
+        label_count_ = 0;
+      }
+    }
   }
 
   [[nodiscard]] bool found() const { return !best_.seen.empty(); }
@@ -109,36 +90,66 @@ class Search {
                                                  [&](std::uint64_t mask) { return (mask & seen) == seen; });
   }
 
+  /// Within a body a labelling and its inverse fit alike, so one of the two is tried, for both.
+  [[nodiscard]] bool worth_trying(std::uint64_t seen, std::uint64_t used) const {
+    return can_be_seen(seen) || (same_body_ && can_be_seen(used));
+  }
+
   bool spend_step() {
     if (steps_left_ == 0) complete_ = false;
     if (complete_) --steps_left_;
     return complete_;
   }
 
+  /// The first two targets under every two labels as far apart: a window of the sorted distances.
+  void start_from_pairs() {
+    for (const PointPair& pair : pairs_of_points_) {
+      const double width = std::sqrt(2.0 * best_mean_square_ * static_cast<double>(fewest_));
+      auto match = std::lower_bound(pairs_of_pattern_.begin(), pairs_of_pattern_.end(),
+                                    PointPair{pair.distance - width, 0, 0});
+      for (; match != pairs_of_pattern_.end() && match->distance < pair.distance + width; ++match) {
+        const double off = pair.distance - match->distance;
+        start(pair, match->first, match->second, off * off);
+        start(pair, match->second, match->first, off * off);
+        if (!complete_) return;
+      }
+    }
+  }
+
+  void start(const PointPair& pair, std::size_t first_label, std::size_t second_label, double squares) {
+    if (same_body_ && std::min(first_label, second_label) < pair.first) return;  // its inverse is tried
+    const std::uint64_t seen = bit(pair.first) | bit(pair.second);
+    const std::uint64_t used = bit(first_label) | bit(second_label);
+    if (!worth_trying(seen, used) || !spend_step()) return;
+    seen_[0] = pair.first;
+    seen_[1] = pair.second;
+    label_[0] = first_label;
+    label_[1] = second_label;
+    label_count_ = 2;
+    extend(seen, used, squares);
+    label_count_ = 0;
+  }
+
   /// Adds one more of the first `fewest_` targets, each later than the one before, under every label.
-  void extend(std::uint64_t seen, std::uint64_t used, double squares, const Moments& moments) {
+  void extend(std::uint64_t seen, std::uint64_t used, double squares) {
     const std::size_t depth = label_count_;
-    const std::size_t first = depth == 0 ? 0 : seen_[depth - 1] + 1;
     const std::size_t last = points_.size() - (fewest_ - depth);
-    for (std::size_t i = first; i <= last; ++i) {
-      const std::uint64_t with = seen | std::uint64_t{1} << i;
-      if (!can_be_seen(with)) continue;
-      for (std::size_t to = 0; to < pattern_.size(); ++to) {
+    const std::size_t first_label = same_body_ ? seen_[0] : 0;
+    for (std::size_t i = seen_[depth - 1] + 1; i <= last; ++i) {
+      for (std::size_t to = first_label; to < pattern_.size(); ++to) {
         if ((used >> to) & 1U) continue;
         const double limit =
             best_mean_square_ * static_cast<double>(fewest_) * static_cast<double>(depth + 1);
         const double grown = squares + added_by(i, to, limit - squares);
-        if (!(grown < limit)) continue;
+        if (!(grown < limit) || !worth_trying(seen | bit(i), used | bit(to))) continue;
         if (!spend_step()) return;
         seen_[depth] = i;
         label_[depth] = to;
         ++label_count_;
-        Moments more = moments;
-        more.add(points_[i], pattern_[to]);
         if (label_count_ == fewest_) {
-          judge(more);
+          judge();
         } else {
-          extend(with, used | std::uint64_t{1} << to, grown, more);
+          extend(seen | bit(i), used | bit(to), grown);
         }
         --label_count_;
       }
@@ -156,8 +167,14 @@ class Search {
     return added;
   }
 
+  void judge() {
+    FitMoments moments;
+    for (std::size_t t = 0; t < label_count_; ++t) moments.add(points_[seen_[t]], pattern_[label_[t]]);
+    judge(moments);
+  }
+
   /// Takes the labelling as the best one when it is wrong and fits better.
-  void judge(const Moments& moments) {
+  void judge(const FitMoments& moments) {
     if (same_body_ && std::equal(seen_.begin(), seen_.begin() + label_count_, label_.begin())) return;
     const auto count = static_cast<double>(label_count_);
     if (!(least_squares_sum(moments) < best_mean_square_ * count)) return;
@@ -172,32 +189,21 @@ class Search {
     if (!(mean_square < best_mean_square_)) return;
     best_mean_square_ = mean_square;
     best_.rms_mm = std::sqrt(mean_square);
-    best_.seen.assign(seen_.begin(), seen_.begin() + label_count_);
-    best_.taken_for.assign(label_.begin(), label_.begin() + label_count_);
-  }
-
-  /// More than `fewest_` seen, one of them taken for a target that is not.
-  void mistake_one() {
-    for (std::size_t wrong = 0; wrong < points_.size(); ++wrong) {
-      for (std::size_t label = 0; label < pattern_.size(); ++label) {
-        if (label == wrong) continue;
-        others_.clear();
-        for (std::size_t j = 0; j < points_.size(); ++j) {
-          if (j == wrong || j == label) continue;
-          const double off =
-              between_points_[wrong * points_.size() + j] - between_points_[label * points_.size() + j];
-          others_.push_back({off * off, j});
-        }
-        std::sort(others_.begin(), others_.end());
-        if (!others_allow_a_fit()) continue;
-        seen_[0] = wrong;
-        label_[0] = label;
-        label_count_ = 1;
-        Moments moments;
-        moments.add(points_[wrong], pattern_[label]);
-        keep_more(0, std::uint64_t{1} << wrong, moments);
-        label_count_ = 0;
-      }
+    std::uint64_t seen = 0;
+    for (std::size_t t = 0; t < label_count_; ++t) seen |= bit(seen_[t]);
+    const bool inverse = !can_be_seen(seen);
+    std::vector<std::pair<int, int>> pairs;
+    for (std::size_t t = 0; t < label_count_; ++t) {
+      const auto target = static_cast<int>(seen_[t]);
+      const auto label = static_cast<int>(label_[t]);
+      pairs.push_back(inverse ? std::pair(label, target) : std::pair(target, label));
+    }
+    std::sort(pairs.begin(), pairs.end());
+    best_.seen.clear();
+    best_.taken_for.clear();
+    for (const auto& [target, label] : pairs) {
+      best_.seen.push_back(target);
+      best_.taken_for.push_back(label);
     }
   }
 
@@ -212,15 +218,15 @@ class Search {
   }
 
   /// Adds some of others_[from…] under their own labels. Residuals only grow as targets join.
-  void keep_more(std::size_t from, std::uint64_t seen, const Moments& moments) {
-    if (label_count_ > fewest_) judge_sorted(moments);
+  void keep_more(std::size_t from, std::uint64_t seen, const FitMoments& moments) {
+    if (label_count_ > fewest_) judge(moments);
     for (std::size_t o = from; o < others_.size(); ++o) {
       if (label_count_ + others_.size() - o <= fewest_) return;
       const std::size_t j = others_[o].target;
-      const std::uint64_t with = seen | std::uint64_t{1} << j;
+      const std::uint64_t with = seen | bit(j);
       if (!can_be_seen(with)) continue;
       if (!spend_step()) return;
-      Moments more = moments;
+      FitMoments more = moments;
       more.add(points_[j], pattern_[j]);
       const auto at_most = static_cast<double>(label_count_ + others_.size() - o);
       if (label_count_ >= 2 && !(least_squares_sum(more) < best_mean_square_ * at_most)) continue;
@@ -228,18 +234,6 @@ class Search {
       ++label_count_;
       keep_more(o + 1, with, more);
       --label_count_;
-    }
-  }
-
-  void judge_sorted(const Moments& moments) {
-    judge(moments);
-    if (best_.seen.size() != label_count_ || std::is_sorted(best_.seen.begin(), best_.seen.end())) return;
-    std::vector<std::pair<int, int>> pairs;
-    for (std::size_t t = 0; t < best_.seen.size(); ++t) pairs.emplace_back(best_.seen[t], best_.taken_for[t]);
-    std::sort(pairs.begin(), pairs.end());
-    for (std::size_t t = 0; t < pairs.size(); ++t) {
-      best_.seen[t] = pairs[t].first;
-      best_.taken_for[t] = pairs[t].second;
     }
   }
 
@@ -253,6 +247,7 @@ class Search {
   std::size_t fewest_;
   std::size_t steps_left_;
   std::vector<double> between_points_, between_pattern_;
+  std::vector<PointPair> pairs_of_points_, pairs_of_pattern_;  // by distance
   std::vector<Vec3> points_, pattern_;
   std::vector<std::uint64_t> seen_together_;
   std::array<std::size_t, kMost> seen_{}, label_{};
@@ -276,6 +271,7 @@ IdentifiabilityMargin search(std::span<const Vec3> points, std::span<const Vec3>
     in.run(cap);
     if (in.found() || !in.complete() || cap >= options.cap_mm) break;
   }
+  if (same_body && in.complete()) in.mistake_one();
   IdentifiabilityMargin margin = in.best();
   if (!in.found()) margin.rms_mm = options.cap_mm;
   margin.complete = in.complete();

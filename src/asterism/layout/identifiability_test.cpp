@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -94,6 +95,25 @@ TEST(IdentifiabilityMargin, AsksOnlyAboutWhatCanBeSeenTogether) {
   const double expected =
       std::min(margin_by_subsets(layout, 4, 60.0, seen[0]), margin_by_subsets(layout, 4, 60.0, seen[1]));
   EXPECT_NEAR(identifiability_margin(layout, {4, 60.0}, seen).rms_mm, expected, 1e-6);
+}
+
+TEST(IdentifiabilityMargin, EqualsASearchOfEverySubsetUnderRandomSights) {
+  for (std::uint64_t trial = 0; trial < 20; ++trial) {
+    const auto layout = random_layout(100 + trial, 7, 250, 60);
+    RandomStream random(22, trial);
+    std::vector<std::uint64_t> seen;
+    double expected = 60;
+    for (int mask = 0; mask < 3; ++mask) {
+      seen.push_back(random.below(128));
+      expected = std::min(expected, margin_by_subsets(layout, 4, 60.0, seen.back()));
+    }
+    const auto margin = identifiability_margin(layout, {4, 60.0}, seen);
+    EXPECT_NEAR(margin.rms_mm, expected, 1e-6) << trial;
+    std::uint64_t labelled = 0;
+    for (const int target : margin.seen) labelled |= std::uint64_t{1} << target;
+    EXPECT_TRUE(std::any_of(seen.begin(), seen.end(),
+                            [&](std::uint64_t mask) { return (mask & labelled) == labelled; }));
+  }
 }
 
 TEST(IdentifiabilityMargin, StaysTheSameWhenTheWholeLayoutIsMoved) {
