@@ -31,6 +31,10 @@ class LayoutProblem : public OptimizationProblem {
                 std::span<double> violations) const override;
   [[nodiscard]] std::size_t niche_of(std::span<const double> genes) const override;
 
+  /// With normals and diameters.
+  [[nodiscard]] std::vector<Target> targets_of(std::span<const double> genes) const {
+    return model_->targets_at(positions_of(genes));
+  }
   [[nodiscard]] const LayoutModel& model() const { return *model_; }
   [[nodiscard]] const std::vector<GreedyLayout>& greedy() const { return greedy_; }
   [[nodiscard]] const std::vector<Place>& greedy_places() const { return greedy_places_; }
