@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "asterism/core/output_file.hpp"
 #include "asterism/core/result.hpp"
@@ -118,38 +119,41 @@ Json of_errors(const ErrorOverMotion& error) {
   return json;
 }
 
-Json of_layout(const LayoutDesign& design, bool given, const LayoutReport& report) {
-  Json targets = Json::array(), values = Json::array();
-  for (const Target& target : design.targets) targets.push_back(json_of_target(target));
-  for (const NamedValue& value : design.quantities)
-    values.push_back(value.value ? digits(*value.value, 6) : Json(nullptr));
-  for (const double mm :
-       {design.metrics.max_radius_mm, design.metrics.symmetry_mm, design.metrics.enclosing_sphere.radius_mm})
-    values.push_back(digits(mm, 6));
-  const auto& after = design.accuracy.after;
-  return {{"name", design.name},
-          {"origin", design.origin},
-          {"reference", given},
-          {"targets", targets},
-          {"values", values},
-          {"fails", broken_constraints(design)},
-          {"seen", of_visibility(design)},
-          {"error_mm", after.empty() ? Json::array() : of_errors(after.front())},
-          {"error_lost_mm", after.size() < 2 ? Json::array() : of_errors(after[1])},
-          {"notes", notes_on(design, *report.cell.layout, report.pose_times_s)}};
+bool is_objective(const LayoutDesign& design, const std::string& name) {
+  return std::any_of(design.objectives.begin(), design.objectives.end(),
+                     [&](const NamedValue& objective) { return objective.name == name; });
 }
 
-/// The columns of the table: every quantity, then what the coordinates alone tell besides.
+/// The columns: the objectives, the other quantities; then what the coordinates alone tell besides.
+std::vector<std::size_t> columns_of(const LayoutDesign& design) {
+  std::vector<std::size_t> columns(design.quantities.size());
+  std::iota(columns.begin(), columns.end(), std::size_t{0});
+  std::stable_partition(columns.begin(), columns.end(),
+                        [&](std::size_t i) { return is_objective(design, design.quantities[i].name); });
+  return columns;
+}
+
+Json of_values(const LayoutDesign& design) {
+  Json values = Json::array();
+  for (const std::size_t i : columns_of(design)) {
+    const std::optional<double>& value = design.quantities[i].value;
+    values.push_back(value ? digits(*value, 6) : Json(nullptr));
+  }
+  const LayoutMetrics& metrics = design.metrics;
+  for (const double mm : {metrics.max_radius_mm, metrics.symmetry_mm, metrics.enclosing_sphere.radius_mm})
+    values.push_back(digits(mm, 6));
+  return values;
+}
+
 Json of_measures(const LayoutDesign& design) {
   Json json = Json::array();
-  for (const NamedValue& value : design.quantities) {
-    const bool objective = std::any_of(design.objectives.begin(), design.objectives.end(),
-                                       [&](const NamedValue& o) { return o.name == value.name; });
-    json.push_back({{"name", value.name},
-                    {"label", label_of_quantity(value.name)},
-                    {"unit", value.unit},
-                    {"better", value.more_is_better ? "more" : "less"},
-                    {"objective", objective}});
+  for (const std::size_t i : columns_of(design)) {
+    const NamedValue& quantity = design.quantities[i];
+    json.push_back({{"name", quantity.name},
+                    {"label", label_of_quantity(quantity.name)},
+                    {"unit", quantity.unit},
+                    {"better", quantity.more_is_better ? "more" : "less"},
+                    {"objective", is_objective(design, quantity.name)}});
   }
   for (const auto& [name, label] : {std::pair{"max-radius", "largest distance to the centroid"},
                                     std::pair{"symmetry", "symmetry (s.d. of those distances)"},
@@ -158,6 +162,22 @@ Json of_measures(const LayoutDesign& design) {
         {{"name", name}, {"label", label}, {"unit", "mm"}, {"better", "none"}, {"objective", false}});
   }
   return json;
+}
+
+Json of_layout(const LayoutDesign& design, bool given, const LayoutReport& report) {
+  Json targets = Json::array();
+  for (const Target& target : design.targets) targets.push_back(json_of_target(target));
+  const auto& after = design.accuracy.after;
+  return {{"name", design.name},
+          {"origin", design.origin},
+          {"reference", given},
+          {"targets", targets},
+          {"values", of_values(design)},
+          {"fails", broken_constraints(design)},
+          {"seen", of_visibility(design)},
+          {"error_mm", after.empty() ? Json::array() : of_errors(after.front())},
+          {"error_lost_mm", after.size() < 2 ? Json::array() : of_errors(after[1])},
+          {"notes", notes_on(design, *report.cell.layout, report.pose_times_s)}};
 }
 
 Json of_history(const std::vector<GenerationRecord>& history) {

@@ -74,11 +74,11 @@ TEST(LayoutReportJson, HoldsLayoutsWithTheirMeasuresAndWhatTheyBreak) {
   EXPECT_EQ(layout["seen"], Json({"33", "31", "33", "33"}));
   EXPECT_EQ(layout["error_mm"], Json({0.0432, nullptr}));
   EXPECT_EQ(layout["values"].size(), json["measures"].size());
-  EXPECT_EQ(layout["values"][1], nullptr);
-  EXPECT_EQ(json["measures"][1]["label"], "worst error after any one loss");
-  EXPECT_EQ(json["measures"][2]["better"], "more");
-  EXPECT_EQ(json["measures"][1]["objective"], false);
-  EXPECT_EQ(json["measures"][2]["objective"], true);
+  EXPECT_EQ(layout["values"][2], nullptr);  // the objectives come first
+  EXPECT_EQ(json["measures"][2]["label"], "worst error after any one loss");
+  EXPECT_EQ(json["measures"][1]["better"], "more");
+  EXPECT_EQ(json["measures"][1]["objective"], true);
+  EXPECT_EQ(json["measures"][2]["objective"], false);
   EXPECT_FALSE(layout["reference"]);
   EXPECT_TRUE(json["layouts"][1]["reference"]);
   EXPECT_EQ(json["knee"], 0);
@@ -147,6 +147,8 @@ TEST(TextOfValue, KeepsThreeDigitsThatCount) {
   EXPECT_EQ(text_of_value(0.04321), "0.0432");
   EXPECT_EQ(text_of_value(12345.6), "12346");
   EXPECT_EQ(text_of_value(7), "7");
+  EXPECT_EQ(text_of_value(0.99999), "1.00");
+  EXPECT_EQ(text_of_value(1e-15), "0");
   EXPECT_EQ(text_of_value(-1.5), "-1.50");
   EXPECT_EQ(text_of_value({}), "–");
 }

@@ -80,8 +80,9 @@ std::string label_of_quantity(const std::string& name) {
 
 std::string text_of_value(const std::optional<double>& value) {
   if (!value || !std::isfinite(*value)) return "–";
+  if (std::abs(*value) < 1e-6) return "0";  // below a nanometre nothing is meant
   if (std::abs(*value) < 1e6 && *value == std::round(*value)) return fmt::format("{:.0f}", *value);
-  const double magnitude = std::floor(std::log10(std::abs(*value)));
+  const double magnitude = std::floor(std::log10(std::abs(*value)) + 2e-4);  // 0.9996 is 1.00
   return fmt::format("{:.{}f}", *value, static_cast<int>(std::clamp(2 - magnitude, 0.0, 9.0)));
 }
 
@@ -89,7 +90,7 @@ std::vector<std::string> broken_constraints(const LayoutDesign& design) {
   std::vector<std::string> broken;
   for (const ConstraintState& state : design.constraints) {
     if (!(state.violation > 0)) continue;
-    const std::string unit = state.unit.empty() ? "" : " " + state.unit;
+    const std::string unit = state.unit.empty() || state.unit == "targets" ? "" : " " + state.unit;
     const std::string is =
         state.value ? fmt::format("is {}{}", text_of_value(state.value), unit) : "cannot be told";
     const std::string by = std::isfinite(state.violation) && state.value

@@ -20,7 +20,7 @@ export function pathOf(form: Form, x: number, y: number, r: number): string {
 }
 
 /// The values of the layouts that set a chart's range: those found; the given ones too unless they would
-/// take more than two thirds of it.
+/// take more than half of it.
 export function spanOf(report: LayoutReport, measure: number): [number, number] {
   const of = (reference: boolean) => report.layouts.filter((layout) => layout.reference === reference)
     .map((layout) => layout.values[measure]).filter((value): value is number => value !== null);
@@ -29,7 +29,7 @@ export function spanOf(report: LayoutReport, measure: number): [number, number] 
   if (found.length === 0) return extent(given);
   const [low, high] = extent(found);
   const [wideLow, wideHigh] = extent([...found, ...given]);
-  const most = 3 * Math.max(high - low, 1e-9 * Math.abs(high), Number.MIN_VALUE);
+  const most = 2 * Math.max(high - low, 1e-9 * Math.abs(high), Number.MIN_VALUE);
   return wideHigh - wideLow <= most ? [wideLow, wideHigh] : [low, high];
 }
 
@@ -50,7 +50,9 @@ export function inkOf(report: LayoutReport, now: LayoutSelection, layout: number
 
 export function valueText(measure: Measure, value: number | null): string {
   if (value === null) return '–';
-  const text = Number.isInteger(value) && Math.abs(value) < 1e6 ? count(value) : significant(value, 3);
+  const size = Math.abs(value);
+  // Below a nanometre nothing is meant.
+  const text = size < 1e-6 ? '0' : Number.isInteger(value) || size >= 1e4 ? count(value) : significant(value, 3);
   return measure.unit ? `${text} ${measure.unit}` : text;
 }
 

@@ -62,7 +62,9 @@ function draw(report: LayoutReport, shared: Shared<LayoutSelection>, width: numb
   };
   // The chosen one and those with a name come last, so that nothing covers them.
   const rank = (i: number) => (i === now.layout ? 3 : i === report.knee ? 2 : report.layouts[i].reference ? 1 : 0);
-  const marks = [...shown].sort((a, b) => rank(a) - rank(b)).map((i) => markOf(report, now, i, place(i), {
+  const ordered = [...shown].sort((a, b) => rank(a) - rank(b));
+  const names = namesOf(report, now, [...ordered].reverse(), place, width);
+  const marks = ordered.map((i) => markOf(report, now, i, place(i), {
     onclick: () => shared.set({ layout: i }),
     onpointerenter: () => tell(pointWords(report, now, i)),
     onpointerleave: () => tell(chosenWords(report, now)),
@@ -76,7 +78,7 @@ function draw(report: LayoutReport, shared: Shared<LayoutSelection>, width: numb
       event.preventDefault();
       step(by);
     },
-  }, ...frameOf(x, y, width), staircase(report, now, shown, place), ...marks);
+  }, ...frameOf(x, y, width), staircase(report, now, shown, place), ...marks, ...names);
 }
 
 function axisOf(report: LayoutReport, index: number, from: number, to: number): Axis {
@@ -121,12 +123,27 @@ function markOf(report: LayoutReport, now: LayoutSelection, i: number, [px, py]:
     d: pathOf(form, px, py, kRadius), fill: hollow ? (form === 'diamond' ? 'var(--panel)' : 'none') : ink,
     stroke: hollow ? ink : 'var(--ink)', 'stroke-width': hollow ? 2 : 0.6, 'stroke-opacity': hollow ? 1 : 0.55,
   });
-  const named = i === report.knee ? `knee: ${report.layouts[i].name}` : report.layouts[i].reference ? report.layouts[i].name : i === now.layout ? report.layouts[i].name : '';
   return svg('g', { class: 'pick', ...handlers },
     svg('circle', { cx: px, cy: py, r: 11, fill: 'transparent' }),
     i === now.layout && svg('circle', { cx: px, cy: py, r: kRadius + 5, fill: 'none', stroke: 'var(--ink)', 'stroke-width': 2 }),
-    mark,
-    named !== '' && svg('text', { x: px + 12, y: py - 8, fill: 'var(--ink)', 'font-weight': i === report.knee ? 600 : 400, stroke: 'var(--panel)', 'stroke-width': 3, 'paint-order': 'stroke' }, named));
+    mark);
+}
+
+/// Names of the knee, the chosen and the given layouts, as far as they do not cover an earlier one.
+function namesOf(report: LayoutReport, now: LayoutSelection, order: number[], place: (i: number) => [number, number], width: number): SVGElement[] {
+  const written: { left: number; right: number; y: number }[] = [];
+  return order.flatMap((i) => {
+    const { name, reference } = report.layouts[i];
+    if (i !== report.knee && i !== now.layout && !reference) return [];
+    const text = i === report.knee ? `knee: ${name}` : name;
+    const [px, py] = place(i);
+    const length = 6.2 * text.length;
+    const left = px + 12 + length > width ? px - 12 - length : px + 12;
+    const box = { left, right: left + length, y: py - 8 };
+    if (written.some((other) => Math.abs(other.y - box.y) < 13 && box.left < other.right && other.left < box.right)) return [];
+    written.push(box);
+    return [svg('text', { x: left, y: box.y, fill: 'var(--ink)', 'font-weight': i === report.knee ? 600 : 400, stroke: 'var(--panel)', 'stroke-width': 3, 'paint-order': 'stroke', 'pointer-events': 'none' }, text)];
+  });
 }
 
 function keyOf(report: LayoutReport, now: LayoutSelection): HTMLElement[] {
