@@ -29,5 +29,6 @@ void add_evaluate(CLI::App& root, Common& common);
 void add_simulate(CLI::App& root, Common& common);
 void add_body(CLI::App& root, Common& common);
 void add_reproduce(CLI::App& root, Common& common);
+void add_layout(CLI::App& root, Common& common);
 
 }  // namespace asterism::app

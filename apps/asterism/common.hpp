@@ -15,6 +15,10 @@
 
 // What the subcommands share: the options every one of them has, progress, results, step options.
 
+namespace asterism {
+class Optimizer;
+}
+
 namespace asterism::app {
 
 struct Common {
@@ -35,6 +39,9 @@ void on_call(CLI::App& command, Common& common, std::function<void()> work);
 /// Draws on standard error: a bar with rate and time left on a terminal, else a line now and then.
 /// Throws Interrupted after Ctrl-C, so that a long job unwinds and leaves whole files.
 [[nodiscard]] Progress make_progress(const Common& common);
+
+/// The same for a search, a generation at a time: hypervolume, feasible share, time left. Does not throw.
+[[nodiscard]] std::function<void(const Optimizer&)> make_search_progress(const Common& common);
 
 class Interrupted : public std::runtime_error {
  public:

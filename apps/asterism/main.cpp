@@ -26,12 +26,26 @@ using AddCommand = void (*)(CLI::App&, Common&);
 /// In the order of `asterism --help`.
 const std::vector<AddCommand> kCommands = {add_demo,     add_calibrate,   add_check_rig, add_body,
                                            add_detect,   add_triangulate, add_identify,  add_track,
-                                           add_evaluate, add_simulate,    add_reproduce};
+                                           add_evaluate, add_layout,      add_simulate,  add_reproduce};
 
-const CLI::App* called_command(const CLI::App& root) {
-  const std::vector<const CLI::App*> called =
-      root.get_subcommands([](const CLI::App* app) { return app->parsed(); });
-  return called.empty() ? nullptr : called.front();
+/// The called command, or the called one of its own commands, and its whole name ("layout evaluate");
+/// nothing where none was called.
+struct Called {
+  const CLI::App* command = nullptr;
+  std::string name;
+};
+
+Called called_command(const CLI::App& root) {
+  Called called;
+  for (const CLI::App* in = &root; in != nullptr;) {
+    const std::vector<const CLI::App*> parsed =
+        in->get_subcommands([](const CLI::App* app) { return app->parsed() > 0; });
+    in = parsed.empty() ? nullptr : parsed.front();
+    if (in == nullptr) break;
+    called.command = in;
+    called.name += (called.name.empty() ? "" : " ") + in->get_name();
+  }
+  return called;
 }
 
 std::vector<std::string> long_names(const CLI::App& command) {
@@ -50,16 +64,18 @@ std::string did_you_mean(const std::string& wrong, const std::vector<std::string
 /// One line: where, what, what would be right. An option that is not known is told first, for a
 /// mistyped option that is required would otherwise be told as missing.
 std::string explain(const CLI::App& root, const CLI::ParseError& error) {
-  const CLI::App* command = called_command(root);
-  if (command == nullptr) {
-    std::vector<std::string> names;
-    for (const CLI::App* app : root.get_subcommands({})) names.push_back(app->get_name());
-    const std::vector<std::string> rest = root.remaining();
-    if (rest.empty()) return fmt::format("asterism: a command is needed, one of: {}", fmt::join(names, ", "));
-    return fmt::format("asterism: `{}` is no command{} `asterism --help` lists them", rest.front(),
-                       did_you_mean(rest.front(), names).append("."));
+  const auto [called, name_of_called] = called_command(root);
+  const CLI::App* command = called != nullptr ? called : &root;
+  const std::string where = called != nullptr ? "asterism " + name_of_called : "asterism";
+  std::vector<std::string> names;
+  for (const CLI::App* app : command->get_subcommands({})) names.push_back(app->get_name());
+  if (!names.empty()) {
+    const std::vector<std::string> rest = command->remaining();
+    if (rest.empty())
+      return fmt::format("{}: a command is needed, one of: {}", where, fmt::join(names, ", "));
+    return fmt::format("{}: `{}` is no command{} `{} --help` lists them", where, rest.front(),
+                       did_you_mean(rest.front(), names).append("."), where);
   }
-  const std::string where = "asterism " + command->get_name();
   for (const std::string& word : command->remaining()) {
     if (!word.starts_with("-") || word == "--") continue;
     const std::string name = word.substr(0, word.find('='));
@@ -109,7 +125,7 @@ int main_of(int argc, char** argv) {
     return fail(kWrongInput, explain(root, error));
   }
   stop_on_interrupt();
-  return run(called_command(root)->get_name(), common.run);
+  return run(called_command(root).name, common.run);
 }
 
 }  // namespace

@@ -6,12 +6,10 @@ import random
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
-from pathlib import Path
 
-PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/bin/asterism"
+from program import PROGRAM, ProgramTest
 
 RIG = """%YAML:1.0
 ---
@@ -54,27 +52,7 @@ def disc_image(centres, radius=6.0):
     return b"P5\n640 480\n255\n" + bytes(pixels)
 
 
-class System(unittest.TestCase):
-    def setUp(self):
-        self._folder = tempfile.TemporaryDirectory()
-        self.at = Path(self._folder.name)
-
-    def tearDown(self):
-        self._folder.cleanup()
-
-    def run_program(self, *words, status=0, **options):
-        done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, timeout=120, **options)
-        self.assertEqual(done.returncode, status, f"{words}: {done.stderr}")
-        return done
-
-    def refused(self, part, *words, status=2, **options):
-        """The program ends with `status` and its last line on standard error holds `part`."""
-        done = self.run_program(*words, status=status, **options)
-        lines = done.stderr.strip().splitlines()
-        self.assertIn(part, lines[-1])
-        self.assertEqual(done.stdout if status == 2 and "centres in" not in done.stdout else "", "")
-        return done
-
+class System(ProgramTest):
     def recording(self, frames=4, images=True):
         (self.at / "rig.yaml").write_text(RIG)
         (self.at / "bodies.toml").write_text(bodies())
