@@ -64,7 +64,8 @@ function draw(report: LayoutReport, shared: Shared<LayoutSelection>, width: numb
   const rank = (i: number) => (i === now.layout ? 3 : i === report.knee ? 2 : report.layouts[i].reference ? 1 : 0);
   const ordered = [...shown].sort((a, b) => rank(a) - rank(b));
   const names = namesOf(report, now, [...ordered].reverse(), place, width);
-  const marks = ordered.map((i) => markOf(report, now, i, place(i), {
+  const inside = (i: number) => x.inside(report.layouts[i].values[now.x]!) && y.inside(report.layouts[i].values[now.y]!);
+  const marks = ordered.map((i) => markOf(report, now, i, place(i), inside(i), {
     onclick: () => shared.set({ layout: i }),
     onpointerenter: () => tell(pointWords(report, now, i)),
     onpointerleave: () => tell(chosenWords(report, now)),
@@ -115,7 +116,7 @@ function staircase(report: LayoutReport, now: LayoutSelection, shown: number[], 
   return svg('path', { d, fill: 'none', stroke: 'var(--muted)', 'stroke-width': 1.2, 'stroke-dasharray': '3 3' });
 }
 
-function markOf(report: LayoutReport, now: LayoutSelection, i: number, [px, py]: [number, number], handlers: Record<string, () => void>): SVGElement {
+function markOf(report: LayoutReport, now: LayoutSelection, i: number, [px, py]: [number, number], inside: boolean, handlers: Record<string, () => void>): SVGElement {
   const form = formOf(report, i);
   const ink = inkOf(report, now, i);
   const hollow = form !== 'disc';
@@ -123,7 +124,8 @@ function markOf(report: LayoutReport, now: LayoutSelection, i: number, [px, py]:
     d: pathOf(form, px, py, kRadius), fill: hollow ? (form === 'diamond' ? 'var(--panel)' : 'none') : ink,
     stroke: hollow ? ink : 'var(--ink)', 'stroke-width': hollow ? 2 : 0.6, 'stroke-opacity': hollow ? 1 : 0.55,
   });
-  return svg('g', { class: 'pick', ...handlers },
+  // What lies outside stands at the edge, faint.
+  return svg('g', { class: 'pick', opacity: inside ? 1 : 0.4, ...handlers },
     svg('circle', { cx: px, cy: py, r: 11, fill: 'transparent' }),
     i === now.layout && svg('circle', { cx: px, cy: py, r: kRadius + 5, fill: 'none', stroke: 'var(--ink)', 'stroke-width': 2 }),
     mark);

@@ -39,7 +39,7 @@ export function sheetsOfPatch(patch: Patch): Sheet[] {
     case 'room': {
       const lower = ringOf(patch.base_mm, patch.radius_mm, 0, kTurn);
       const upper = ringOf(patch.base_mm, patch.radius_mm, 0, kTurn, patch.height_mm);
-      return [[lower, upper]];
+      return [[lower, upper], [ringOf(patch.base_mm, 0, 0, kTurn, patch.height_mm), upper]];
     }
   }
 }
