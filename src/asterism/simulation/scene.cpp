@@ -114,7 +114,8 @@ double visible_share(const Scene& scene, std::size_t index, const Lens& lens) {
   constexpr int kMany = 4000;
   const Hiding hiding(scene, index);
   const int few = count_visible(hiding, disc.place, lens, kFew);
-  if (few == 0 || few == kFew) return few / kFew;
+  if (few == 0) return 0;
+  if (few == kFew) return 1;
   return static_cast<double>(count_visible(hiding, disc.place, lens, kMany)) / kMany;
 }
 
