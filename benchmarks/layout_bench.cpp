@@ -2,8 +2,8 @@
 // Where to put the targets. First the question the paper asked: a layout of each N from 4 to 12 beside its
 // own eight, by the error at the part after any one loss and by the identifiability margin. Then what the
 // expert's problem costs (the built-in cell: N 4 to 12, 200 poses, any one lost, ambiguity, visibility), and
-// what the same number of evaluations gives when layouts are drawn at random or sought by the paper's
-// objectives.
+// what the same number of evaluations gives when layouts are drawn at random, sought by the paper's
+// objectives, or by pagmo.
 
 #include <fmt/format.h>
 
@@ -14,8 +14,10 @@
 #include "asterism/io/cell_file.hpp"
 #include "asterism/layout/cell_for_tests.hpp"
 #include "asterism/layout/designer.hpp"
+#include "asterism/layout/surface.hpp"
 #include "asterism/optimization/hypervolume.hpp"
 #include "bench.hpp"
+#include "peers/pagmo.hpp"
 
 namespace asterism::bench {
 namespace {
@@ -107,6 +109,55 @@ std::vector<LayoutDesign> drawn_at_random(const Cell& cell, const LayoutProblem&
   return designs;
 }
 
+/// The expert's problem as an engine without constraints and with a fixed number of genes can take it: so
+/// many targets, each anywhere in the surface's box and brought to the nearest allowed place; what breaks a
+/// constraint is added to both objectives, far above what they can be.
+class FixedCount : public RealProblem {
+ public:
+  FixedCount(const Cell& cell, const LayoutProblem& problem, std::size_t targets)
+      : RealProblem(corners(*cell.layout, targets, false), corners(*cell.layout, targets, true)),
+        task_(*cell.layout),
+        problem_(problem) {}
+
+  [[nodiscard]] std::string identity() const override { return "layouts of a fixed number of targets"; }
+  [[nodiscard]] std::vector<ObjectiveInfo> objectives() const override {
+    return {{"worst-error-1-lost", "mm"}, {"identifiability", "mm"}};
+  }
+  void evaluate(std::span<const double> genes, std::span<double> objectives,
+                std::span<double> /*violations*/) const override {
+    const Genes placed = on_surface(genes);
+    std::vector<double> values(problem_.objectives().size()), broken(problem_.constraints().size());
+    problem_.evaluate(placed, values, broken);
+    double penalty = 0;
+    for (std::size_t i = 0; i < broken.size(); ++i) {
+      penalty += 100 * broken[i] / problem_.constraints()[i].scale;
+    }
+    objectives[0] = values[1] + penalty;
+    objectives[1] = values[2] + penalty;
+  }
+  [[nodiscard]] Genes on_surface(std::span<const double> genes) const {
+    Genes placed(genes.begin(), genes.end());
+    for (std::size_t i = 0; i < genes.size(); i += 3) {
+      const auto place = nearest_allowed_place(task_.surface, {genes[i], genes[i + 1], genes[i + 2]},
+                                               0.5 * task_.diameter_mm);
+      if (!place) continue;
+      for (std::size_t k = 0; k < 3; ++k) placed[i + k] = place->position_mm[static_cast<Eigen::Index>(k)];
+    }
+    return placed;
+  }
+
+ private:
+  static std::vector<double> corners(const LayoutTask& task, std::size_t targets, bool highest) {
+    const Bounds bounds = bounds_of(task.surface);
+    const Vec3& corner = highest ? bounds.highest : bounds.lowest;
+    std::vector<double> all;
+    for (std::size_t i = 0; i < targets; ++i) all.insert(all.end(), corner.begin(), corner.end());
+    return all;
+  }
+  LayoutTask task_;
+  const LayoutProblem& problem_;
+};
+
 struct Timed {
   OptimizationResult found;
   double wall_s = 0, cpu_s = 0;
@@ -118,6 +169,27 @@ Timed timed(const LayoutProblem& problem, const OptimizerOptions& options) {
   run.wall_s = wall_seconds_now() - wall;
   run.cpu_s = cpu_seconds_now() - cpu;
   return run;
+}
+
+/// pagmo keeps one number of genes and takes no constraints: a run for each number of targets shares out the
+/// evaluations.
+template <class TellRun>
+void pagmo_by_count(const Cell& cell, const LayoutProblem& problem, int evaluations,
+                    const TellRun& tell_run) {
+  constexpr int kPopulation = 40;
+  const int runs = cell.layout->most - cell.layout->fewest + 1;
+  const int generations = evaluations / runs / kPopulation - 1;
+  Timed timing;
+  const double wall = wall_seconds_now();
+  std::vector<Candidate> found;
+  for (int n = cell.layout->fewest; n <= cell.layout->most; ++n) {
+    const FixedCount fixed(cell, problem, static_cast<std::size_t>(n));
+    const PeerRun run = pagmo_nsga2(fixed, kPopulation, generations, static_cast<unsigned>(n));
+    timing.cpu_s += run.cpu_seconds;
+    for (const Genes& genes : run.genes) found.push_back({fixed.on_surface(genes), {}, {}, 0});
+  }
+  timing.wall_s = wall_seconds_now() - wall;
+  tell_run(fmt::format("pagmo, {} runs, penalties", runs), &timing, judged(cell, problem, found));
 }
 
 void expert_problem(const Cell& cell) {
@@ -156,6 +228,7 @@ void expert_problem(const Cell& cell) {
     const Timed run = timed(by_papers, options);
     tell_run(objectives, &run, judged(cell, by_papers, run.found.front));
   }
+  pagmo_by_count(cell, problem, static_cast<int>(options.evaluations), tell_run);
   table.print_json();
   set_thread_count(0);
 }

@@ -56,6 +56,7 @@ PeerRun pagmo_nsga2(const RealProblem& problem, int population, int generations,
     run.cpu_seconds = cpu_seconds() - start;
     for (const pagmo::vector_double& f : people.get_f())
       run.objectives.insert(run.objectives.end(), f.begin(), f.end());
+    run.genes = people.get_x();
   } catch (const std::exception& error) {
     // Of its message, what says why: "…what: Non linear constraints detected in NAME instance…".
     const std::string message = error.what();

@@ -12,6 +12,7 @@ namespace asterism::bench {
 /// What an engine made of a problem.
 struct PeerRun {
   std::vector<double> objectives;  // of its last population, row-major
+  std::vector<Genes> genes;        // of the same
   double cpu_seconds = 0;          // of this process; making the first population included
   std::string refusal;             // why it did not run
 };
