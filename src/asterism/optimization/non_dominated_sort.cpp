@@ -29,9 +29,9 @@ const Fronts& NonDominatedSort::operator()(std::span<const double> objectives, s
   else if (m == 2)
     sweep_two(objectives);
   else if (m == 3)
-    sweep_three(objectives);
+    sweep_fronts(objectives, m, staircases_);
   else
-    sweep_many(objectives, m);
+    sweep_fronts(objectives, m, trees_);
   return fronts_;
 }
 
@@ -67,62 +67,36 @@ void NonDominatedSort::sweep_two(std::span<const double> objectives) {
   gather_fronts(tails_.size());
 }
 
-/// What has come before is no worse in the first objective, so a front dominates a point if its staircase in
-/// the other two covers it. Who is dominated by a front is dominated by all before it: fronts are searched
-/// by halving.
-void NonDominatedSort::sweep_three(std::span<const double> objectives) {
-  std::size_t fronts = 0;
+/// What has come before is no worse in the first objective, so a front dominates a point if one of its
+/// members is at most as great in all others. Who is dominated by a front is dominated by all before it, so
+/// fronts are searched by halving.
+template <class Front>
+void NonDominatedSort::sweep_fronts(std::span<const double> objectives, std::size_t m,
+                                    std::vector<Front>& fronts) {
+  std::size_t count = 0;
   const double* last = nullptr;
   for (std::size_t i = 0; i < order_.size(); ++i) {
-    const double* point = objectives.data() + 3 * std::size_t{order_[i]};
-    if (last != nullptr && std::equal(last, last + 3, point)) {
+    const double* point = objectives.data() + m * order_[i];
+    if (last != nullptr && std::equal(last, last + m, point)) {
       ranks_[i] = ranks_[i - 1];
       continue;
     }
     last = point;
     std::size_t rank = 0;
-    for (std::size_t length = fronts; length > 0;) {
+    for (std::size_t length = count; length > 0;) {
       const std::size_t half = length / 2;
-      const bool covered = staircases_[rank + half].covers(point[1], point[2]);
+      const bool covered = fronts[rank + half].covers(point + 1);
       rank += covered ? half + 1 : 0;
       length = covered ? length - half - 1 : half;
     }
-    if (rank == fronts) {
-      if (++fronts > staircases_.size()) staircases_.emplace_back();
-      staircases_[rank].clear();
+    if (rank == count) {
+      if (++count > fronts.size()) fronts.emplace_back();
+      fronts[rank].clear(m - 1);
     }
-    staircases_[rank].add(point[1], point[2]);
+    fronts[rank].add(point + 1);
     ranks_[i] = static_cast<std::uint32_t>(rank);
   }
-  gather_fronts(fronts);
-}
-
-/// Efficient non-dominated sort, sequential search (Zhang et al. 2015): earlier points in lexicographic
-/// order are never dominated by later ones, so each is compared with the members of front after front.
-void NonDominatedSort::sweep_many(std::span<const double> objectives, std::size_t m) {
-  const auto point = [&](std::uint32_t i) { return objectives.subspan(i * m, m); };
-  const auto at_most = [&](std::uint32_t a, std::uint32_t b) {
-    for (std::size_t k = 1; k < m; ++k)
-      if (objectives[a * m + k] > objectives[b * m + k]) return false;
-    return true;
-  };
-  for (auto& front : members_) front.clear();
-  std::size_t fronts = 0;
-  for (std::size_t i = 0; i < order_.size(); ++i) {
-    const std::uint32_t p = order_[i];
-    if (i > 0 && std::ranges::equal(point(p), point(order_[i - 1]))) {
-      ranks_[i] = ranks_[i - 1];
-      continue;
-    }
-    std::size_t rank = 0;
-    while (rank < fronts &&
-           std::any_of(members_[rank].rbegin(), members_[rank].rend(), [&](auto q) { return at_most(q, p); }))
-      ++rank;
-    if (rank == fronts && ++fronts > members_.size()) members_.emplace_back();
-    members_[rank].push_back(p);
-    ranks_[i] = static_cast<std::uint32_t>(rank);
-  }
-  gather_fronts(fronts);
+  gather_fronts(count);
 }
 
 /// Puts the points front after front, keeping their lexicographic order.

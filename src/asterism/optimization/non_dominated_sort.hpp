@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "asterism/optimization/dominance_tree.hpp"
 #include "asterism/optimization/lexicographic_order.hpp"
 #include "asterism/optimization/staircase.hpp"
 
@@ -36,16 +37,16 @@ class NonDominatedSort {
  private:
   void sweep_one(std::span<const double> objectives);
   void sweep_two(std::span<const double> objectives);
-  void sweep_three(std::span<const double> objectives);
-  void sweep_many(std::span<const double> objectives, std::size_t m);
+  template <class Front>
+  void sweep_fronts(std::span<const double> objectives, std::size_t m, std::vector<Front>& fronts);
   void gather_fronts(std::size_t fronts);
 
   LexicographicOrder lexicographic_order_;
   std::span<const std::uint32_t> order_;
   std::vector<std::uint32_t> ranks_;  // in that order
   std::vector<double> tails_;
-  std::vector<Staircase> staircases_;
-  std::vector<std::vector<std::uint32_t>> members_;
+  std::vector<Staircase> staircases_;  // a front each
+  std::vector<DominanceTree> trees_;
   std::vector<std::uint32_t> ends_;
   Fronts fronts_;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <vector>
 
@@ -12,13 +13,15 @@ namespace asterism {
 /// descending. A sorted vector, which is quickest as long as it is short, and a tree beyond that.
 class Staircase {
  public:
-  void clear() {
+  void clear(std::size_t /*coordinates*/ = 2) {
     steps_.clear();
     tall_.clear();
   }
 
-  /// Whether a point of the staircase is at most (x, y) in both coordinates.
-  [[nodiscard]] bool covers(double x, double y) const {
+  /// Whether a point of the staircase is at most as great in both coordinates.
+  [[nodiscard]] bool covers(const double* point) const {
+    const double x = point[0];
+    const double y = point[1];
     if (!tall_.empty()) {
       const auto after = tall_.upper_bound(x);
       return after != tall_.begin() && std::prev(after)->second <= y;
@@ -35,7 +38,9 @@ class Staircase {
   }
 
   /// Adds a point that is not covered and drops those it covers.
-  void add(double x, double y) {
+  void add(const double* point) {
+    const double x = point[0];
+    const double y = point[1];
     if (steps_.size() == kTallest) {
       for (const Step& step : steps_) tall_.emplace_hint(tall_.end(), step.x, step.y);
       steps_.clear();
