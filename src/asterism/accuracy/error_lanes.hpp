@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-
 #include "asterism/core/lanes.hpp"
 #include "asterism/geometry/types.hpp"
 
@@ -14,8 +12,6 @@
 //   I_δδ = M,   I_ωδ = P M,   I_ωω = P M Pᵀ
 
 namespace asterism {
-
-using MaskLanes = std::int64_t __attribute__((vector_size(32)));
 
 /// xx xy xz yy yz zz.
 struct alignas(kLanesAlignment) SymmetricLanes {

@@ -6,24 +6,6 @@
 #include "asterism/core/result.hpp"
 
 namespace asterism {
-namespace {
-
-/// Holds each option to the limits that `describe` tells.
-class Checker : public OptionVisitor {
- public:
-  void number(std::string_view name, double& value, Limits limits, std::string_view) override {
-    check_number(name, value, limits);
-  }
-  void integer(std::string_view name, int& value, Limits limits, std::string_view) override {
-    check_number(name, value, limits);
-  }
-  void flag(std::string_view, bool&, std::string_view) override {}
-  void text(std::string_view, std::string&, std::string_view) override {}
-  void choice(std::string_view, int&, const std::vector<std::string>&, std::string_view) override {}
-};
-
-}  // namespace
-
 void describe(OptimizerOptions& options, OptionVisitor& visit) {
   visit.integer("population", options.population, {2, 1e6}, "candidates of each island");
   visit.integer("generations", options.generations, {0, 1e9}, "stop after so many generations");
@@ -53,8 +35,8 @@ OptimizerOptions deb2002() {
 
 void check(const OptimizerOptions& options) {
   OptimizerOptions checked = options;
-  Checker checker;
-  describe(checked, checker);
+  LimitsCheck limits;
+  describe(checked, limits);
   if (options.islands > 1 && options.migrants > options.population)
     throw InputError(fmt::format("migrants is {} but a population has only {} candidates", options.migrants,
                                  options.population));

@@ -14,8 +14,6 @@
 
 namespace asterism {
 
-using MaskLanes = std::int64_t __attribute__((vector_size(32)));
-
 /// One target before one camera in four poses.
 struct alignas(kLanesAlignment) SightLanes {
   DoubleLanes u, v;           // px
