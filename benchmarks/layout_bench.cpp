@@ -26,11 +26,6 @@ using Q = LayoutQuantity;
 
 constexpr double kWorstErrorMm = 1.0;  // the hypervolume's reference, with 13 targets and no margin
 
-double cpu_seconds_now() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 double wall_seconds_now() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
@@ -164,10 +159,10 @@ struct Timed {
 };
 Timed timed(const LayoutProblem& problem, const OptimizerOptions& options) {
   const double wall = wall_seconds_now();
-  const double cpu = cpu_seconds_now();
+  const double cpu = cpu_seconds();
   Timed run{optimize(problem, options), 0, 0};
   run.wall_s = wall_seconds_now() - wall;
-  run.cpu_s = cpu_seconds_now() - cpu;
+  run.cpu_s = cpu_seconds() - cpu;
   return run;
 }
 

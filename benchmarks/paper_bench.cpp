@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "asterism/cell/paper_layouts.hpp"
 #include "asterism/core/parallel.hpp"
-#include "asterism/layout/paper_layouts.hpp"
 #include "asterism/layout/target_loss.hpp"
 #include "asterism/reproduction/papers_run.hpp"
 #include "asterism/reproduction/reproduce.hpp"

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <vector>
 
+#include "asterism/cell/paper_layouts.hpp"
 #include "asterism/geometry/rigid_motion.hpp"
 #include "asterism/layout/frame.hpp"
 #include "asterism/layout/metrics.hpp"
 #include "asterism/layout/objectives.hpp"
-#include "asterism/layout/paper_layouts.hpp"
 #include "asterism/optimization/crowding.hpp"
 #include "asterism/optimization/variation.hpp"
 #include "asterism/reproduction/schemes.hpp"

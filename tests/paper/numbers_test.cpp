@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "asterism/cell/paper_layouts.hpp"
 #include "asterism/layout/metrics.hpp"
-#include "asterism/layout/paper_layouts.hpp"
 #include "asterism/layout/target_loss.hpp"
 #include "asterism/optimization/crowding.hpp"
 #include "asterism/optimization/non_dominated_sort.hpp"
@@ -99,14 +99,8 @@ TEST(PaperTable12, TheOptimalLayoutTurnsWorstOfTheFive) {
   }
 }
 
-std::vector<Layout> table1() {
-  std::vector<Layout> layouts;
-  for (const PublishedLayout& layout : paper_table1()) layouts.push_back(layout.targets);
-  return layouts;
-}
-
 TEST(PaperFigure14, ExpectationsOverAllSetsOfTargetsLeft) {
-  const auto expected = expect_target_loss(table1(), {}, 1000);
+  const auto expected = expect_target_loss(places_of(paper_table1()), {}, 1000);
   const double cost[] = {284.55, 312.23, 264.61}, cost_deviation[] = {7.01, 8.59, 7.02};
   const double cover[] = {5748.3, 6121.5, 5412.3}, cover_deviation[] = {1080.5, 1151.0, 1018.8};
   const double front[] = {81.0, 75.8, 99.8};
@@ -123,9 +117,9 @@ TEST(PaperFigure14, ExpectationsOverAllSetsOfTargetsLeft) {
 // Ten thousand runs a seed: a thousand hold so few heavy losses that the deviation of the cost is not normal
 // yet.
 TEST(PaperFigure14, DrawsStayWithinFourStandardErrors) {
-  const auto expected = expect_target_loss(table1(), {}, 10000);
+  const auto expected = expect_target_loss(places_of(paper_table1()), {}, 10000);
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const auto drawn = figures_of(draw_target_loss(table1(), {}, 10000, seed));
+    const auto drawn = figures_of(draw_target_loss(places_of(paper_table1()), {}, 10000, seed));
     for (std::size_t s = 0; s < 3; ++s) {
       for (const auto figure :
            {&LossFigures::mean_cost_mm, &LossFigures::cost_deviation_mm, &LossFigures::mean_coverage_mm,
@@ -137,7 +131,8 @@ TEST(PaperFigure14, DrawsStayWithinFourStandardErrors) {
 }
 
 TEST(PaperTable13, OrdinaryNoiseOfATenthOfAMillimetreGivesHalfOfIt) {
-  const ExpectedErrors stated = expect_errors(table1()[0], Disturbance::Isotropic, 0.1, 50, 400, 1);
+  const ExpectedErrors stated =
+      expect_errors(places_of(paper_table1())[0], Disturbance::Isotropic, 0.1, 50, 400, 1);
   // Golden values to their last digit and four standard errors of 400 experiments.
   EXPECT_NEAR(stated.mean_rotation_deg.mean, 0.018, 5e-4 + stated.mean_rotation_deg.deviation / 5);
   EXPECT_NEAR(stated.max_rotation_deg.mean, 0.040, 5e-4 + stated.max_rotation_deg.deviation / 5);

@@ -47,8 +47,7 @@ std::string names_of(const std::vector<int>& targets, const Body& body) {
 }  // namespace
 
 BodyAmbiguity find_ambiguity(const Body& body, double least_mm, double cap_mm) {
-  std::vector<Vec3> positions;
-  for (const Target& target : body.targets) positions.push_back(target.position);
+  const std::vector<Vec3> positions = positions_of(body.targets);
   BodyAmbiguity ambiguity{cap_mm, cap_mm, cap_mm, true, {}, {}, std::nullopt};
   if (positions.size() < 3) return ambiguity;
   const auto everything = first_of(positions.size());

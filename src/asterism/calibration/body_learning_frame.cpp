@@ -9,16 +9,11 @@
 #include <numeric>
 
 #include "asterism/calibration/body_learning_congruence.hpp"
+#include "asterism/geometry/point_sets.hpp"
 #include "asterism/geometry/rigid_fit.hpp"
 
 namespace asterism {
 namespace {
-
-Vec3 centroid_of(const std::vector<Vec3>& positions) {
-  Vec3 sum = Vec3::Zero();
-  for (const Vec3& p : positions) sum += p;
-  return sum / static_cast<double>(positions.size());
-}
 
 /// Mean direction to the middle between the cameras, in the body's frame.
 Vec3 towards_cameras(const StereoRig& rig, const BodyModel& model, const Vec3& centroid) {
@@ -97,8 +92,7 @@ BodyFrame own_frame(const StereoRig& rig, const BodyModel& model) {
 }
 
 std::optional<BodyFrame> nominal_frame(const BodyModel& model, const Body& nominal, double error_mm) {
-  std::vector<Vec3> positions;
-  for (const Target& target : nominal.targets) positions.push_back(target.position);
+  const std::vector<Vec3> positions = positions_of(nominal.targets);
   // The gate of a congruence is √kPointGate sigmas of a pair.
   const double sigma = error_mm / std::sqrt(2 * kPointGate);
   const auto found = congruent_subsets(as_points(model.positions, sigma), as_points(positions, sigma), 0.0,

@@ -44,6 +44,13 @@ void check_body(const Body& body, const std::string& where) {
 
 }  // namespace
 
+std::vector<Vec3> positions_of(std::span<const Target> targets) {
+  std::vector<Vec3> positions;
+  positions.reserve(targets.size());
+  for (const Target& target : targets) positions.push_back(target.position);
+  return positions;
+}
+
 void check_bodies(const std::vector<Body>& bodies, const std::string& where) {
   std::set<std::string> names;
   for (const Body& body : bodies) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct Body {
   std::string name;
   std::vector<Target> targets;
 };
+
+/// Where the targets are, in the body's frame, mm.
+[[nodiscard]] std::vector<Vec3> positions_of(std::span<const Target> targets);
 
 /// Throws InputError for: no targets, a name or id given twice, a number that is not finite, a normal of
 /// length zero, a diameter not positive, two targets at one place.

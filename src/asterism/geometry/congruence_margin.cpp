@@ -4,19 +4,11 @@
 #include <algorithm>
 
 #include "asterism/core/result.hpp"
+#include "asterism/geometry/point_sets.hpp"
 #include "asterism/geometry/rigid_fit.hpp"
 
 namespace asterism {
 namespace {
-
-std::vector<double> distances_of(std::span<const Vec3> points) {
-  std::vector<double> distances;
-  distances.reserve(points.size() * points.size());
-  for (const Vec3& a : points) {
-    for (const Vec3& b : points) distances.push_back((a - b).norm());
-  }
-  return distances;
-}
 
 class Search {
  public:

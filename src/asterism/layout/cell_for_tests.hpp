@@ -2,7 +2,7 @@
 #pragma once
 
 #include "asterism/cell/cell.hpp"
-#include "asterism/layout/paper_layouts.hpp"
+#include "asterism/cell/paper_layouts.hpp"
 
 namespace asterism {
 

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "asterism/cell/paper_layouts.hpp"
 #include "asterism/core/parallel.hpp"
 #include "asterism/core/result.hpp"
 #include "asterism/layout/knee.hpp"
-#include "asterism/layout/paper_layouts.hpp"
 #include "asterism/layout/verdict.hpp"
 
 namespace asterism {
@@ -44,8 +44,7 @@ LayoutDesign design_of(const LayoutModel& model, std::span<const Target> given, 
   design.origin = std::move(origin);
   design.targets = model.completed(given);
   design.name = fmt::format("{} targets", design.targets.size());
-  std::vector<Vec3> positions;
-  for (const Target& target : design.targets) positions.push_back(target.position);
+  const std::vector<Vec3> positions = positions_of(design.targets);
   design.metrics = measure_layout(positions);
 
   QuantitySet all;
@@ -64,9 +63,8 @@ LayoutDesign design_of(const LayoutModel& model, std::span<const Target> given, 
   design.constraints.push_back(off_surface(model.rules, design.targets));
   design.identifiability = values.within;
   for (const Body& other : model.others) {
-    std::vector<Vec3> of_other;
-    for (const Target& target : other.targets) of_other.push_back(target.position);
-    design.between_bodies.push_back({other.name, identifiability_between(positions, of_other, {4, cap})});
+    design.between_bodies.push_back(
+        {other.name, identifiability_between(positions, positions_of(other.targets), {4, cap})});
   }
   design.visibility = std::move(values.visibility);
   design.accuracy = std::move(values.accuracy);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "asterism/layout/frame.hpp"
 
+#include "asterism/geometry/point_sets.hpp"
+
 namespace asterism {
 
 Result<RigidMotion, RigidFitFailure> three_point_frame(std::span<const Vec3> targets) {
@@ -10,9 +12,7 @@ Result<RigidMotion, RigidFitFailure> three_point_frame(std::span<const Vec3> tar
 
 Result<RigidMotion, RigidFitFailure> centroid_frame(std::span<const Vec3> targets, CentroidAxes axes) {
   if (targets.size() < 3) return because(RigidFitFailure::TooFewPoints);
-  Vec3 centroid = Vec3::Zero();
-  for (const Vec3& target : targets) centroid += target;
-  centroid /= static_cast<double>(targets.size());
+  const Vec3 centroid = centroid_of(targets);
 
   auto frame = axes == CentroidAxes::BetweenTargets
                    ? frame_from_three_points(targets[0], targets[1], targets[2])

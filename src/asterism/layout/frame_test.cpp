@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "asterism/layout/paper_layouts.hpp"
+#include "asterism/cell/paper_layouts.hpp"
 
 namespace asterism {
 namespace {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "asterism/cell/paper_layouts.hpp"
 #include "asterism/core/result.hpp"
 #include "asterism/layout/metrics.hpp"
-#include "asterism/layout/paper_layouts.hpp"
 
 namespace asterism {
 namespace {

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "asterism/core/result.hpp"
+#include "asterism/geometry/point_sets.hpp"
 #include "asterism/geometry/rigid_fit.hpp"
 #include "asterism/layout/fit_moments.hpp"
-#include "asterism/layout/pair_distances.hpp"
 
 namespace asterism {
 namespace {
@@ -103,10 +103,10 @@ class Search {
 
   /// The first two targets under every two labels as far apart: a window of the sorted distances.
   void start_from_pairs() {
-    for (const PointPair& pair : pairs_of_points_) {
+    for (const SpacedPair& pair : pairs_of_points_) {
       const double width = std::sqrt(2.0 * best_mean_square_ * static_cast<double>(fewest_));
       auto match = std::lower_bound(pairs_of_pattern_.begin(), pairs_of_pattern_.end(),
-                                    PointPair{pair.distance - width, 0, 0});
+                                    SpacedPair{pair.distance - width, 0, 0});
       for (; match != pairs_of_pattern_.end() && match->distance < pair.distance + width; ++match) {
         const double off = pair.distance - match->distance;
         start(pair, match->first, match->second, off * off);
@@ -116,7 +116,7 @@ class Search {
     }
   }
 
-  void start(const PointPair& pair, std::size_t first_label, std::size_t second_label, double squares) {
+  void start(const SpacedPair& pair, std::size_t first_label, std::size_t second_label, double squares) {
     if (same_body_ && std::min(first_label, second_label) < pair.first) return;  // its inverse is tried
     const std::uint64_t seen = bit(pair.first) | bit(pair.second);
     const std::uint64_t used = bit(first_label) | bit(second_label);
@@ -247,7 +247,7 @@ class Search {
   std::size_t fewest_;
   std::size_t steps_left_;
   std::vector<double> between_points_, between_pattern_;
-  std::vector<PointPair> pairs_of_points_, pairs_of_pattern_;  // by distance
+  std::vector<SpacedPair> pairs_of_points_, pairs_of_pattern_;  // by distance
   std::vector<Vec3> points_, pattern_;
   std::vector<std::uint64_t> seen_together_;
   std::array<std::size_t, kMost> seen_{}, label_{};

@@ -7,11 +7,11 @@
 #include <bit>
 #include <cmath>
 
+#include "asterism/cell/paper_layouts.hpp"
 #include "asterism/core/random.hpp"
 #include "asterism/core/result.hpp"
 #include "asterism/geometry/congruence_margin.hpp"
 #include "asterism/geometry/rigid_motion.hpp"
-#include "asterism/layout/paper_layouts.hpp"
 
 namespace asterism {
 namespace {

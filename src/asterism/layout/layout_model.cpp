@@ -46,13 +46,6 @@ bool wants(const QuantitySet& wanted, std::initializer_list<Q> any) {
   return std::any_of(any.begin(), any.end(), [&](Q q) { return wanted[static_cast<std::size_t>(q)]; });
 }
 
-std::vector<Vec3> positions_of(std::span<const Target> targets) {
-  std::vector<Vec3> positions;
-  positions.reserve(targets.size());
-  for (const Target& target : targets) positions.push_back(target.position);
-  return positions;
-}
-
 /// The task's own bounds, then the options', which take the place of those on the same quantity.
 std::vector<LayoutConstraint> all_constraints(const LayoutTask& task, const std::string& asked) {
   std::vector<LayoutConstraint> constraints = {{Q::Visible, 4.0 + task.losses},
@@ -188,9 +181,8 @@ void LayoutModel::measure_identifiability(std::span<const Vec3> positions, doubl
   values.within = identifiability_margin(positions, {4, cap_mm}, seen);
   double least = values.within.rms_mm;
   for (const Body& other : others) {
-    values.between.push_back(
-        {other.name, identifiability_between(positions, positions_of(other.targets), {4, least})});
-    least = std::min(least, values.between.back().margin.rms_mm);
+    const auto margin = identifiability_between(positions, positions_of(other.targets), {4, least});
+    least = std::min(least, margin.rms_mm);
   }
   values.of[static_cast<std::size_t>(Q::Identifiability)] = least;
 }

@@ -28,7 +28,6 @@ struct LayoutValues {
   MotionVisibility visibility;
   MotionAccuracy accuracy;
   IdentifiabilityMargin within;
-  std::vector<MarginToBody> between;
 
   [[nodiscard]] const std::optional<double>& operator[](LayoutQuantity quantity) const {
     return of[static_cast<std::size_t>(quantity)];

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
+#include "asterism/cell/paper_layouts.hpp"
+#include "asterism/core/checksum.hpp"
 #include "asterism/core/result.hpp"
-#include "asterism/layout/paper_layouts.hpp"
 
 namespace asterism {
 namespace {
@@ -21,10 +21,10 @@ constexpr double kNoErrorMm = 1e6;    // stands for an error that has no value; 
 constexpr int kPoissonSeedsEach = 2;  // for each number of targets
 constexpr double kCut = 0.3;          // share of children by a cut through space
 
-/// A mark of everything that decides about the values, bit for bit (FNV-1a).
+/// A mark of everything that decides about the values.
 class Mark {
  public:
-  void add(double value) { add_bits(std::bit_cast<std::uint64_t>(value)); }
+  void add(double value) { sum_.add(value); }
   void add(const Vec3& vector) {
     for (int i = 0; i < 3; ++i) add(vector(i));
   }
@@ -36,15 +36,10 @@ class Mark {
     for (const Target& target : targets) add(target.position);
     add(static_cast<double>(targets.size()));
   }
-  [[nodiscard]] std::uint64_t value() const { return hash_; }
+  [[nodiscard]] std::uint64_t value() const { return sum_.value(); }
 
  private:
-  void add_bits(std::uint64_t bits) {
-    for (int byte = 0; byte < 8; ++byte) {
-      hash_ = (hash_ ^ (bits >> (8 * byte) & 0xFF)) * 1099511628211ULL;
-    }
-  }
-  std::uint64_t hash_ = 14695981039346656037ULL;
+  Checksum sum_;
 };
 
 /// Adds each number of options to a mark.
@@ -217,8 +212,7 @@ Genes LayoutProblem::sample(RandomStream& random) const {
 std::vector<Genes> LayoutProblem::seeds() const {
   const LayoutRules& rules = model_->rules;
   std::vector<std::vector<Vec3>> layouts;
-  std::vector<Vec3> present;
-  for (const Target& target : model_->present) present.push_back(target.position);
+  const std::vector<Vec3> present = positions_of(model_->present);
   if (fits(present, rules)) layouts.push_back(present);
   if (model_->options.published_seeds) {
     for (const auto* table : {&paper_table1(), &paper_table9()}) {

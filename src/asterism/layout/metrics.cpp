@@ -8,6 +8,7 @@
 
 #include "asterism/core/result.hpp"
 #include "asterism/geometry/linear_algebra.hpp"
+#include "asterism/geometry/point_sets.hpp"
 
 namespace asterism {
 namespace {
@@ -116,8 +117,7 @@ LayoutMetrics measure_layout(std::span<const Vec3> targets) {
   require(targets.size() >= 2, "a layout has two targets or more");
   LayoutMetrics metrics;
   metrics.targets = static_cast<int>(targets.size());
-  for (const Vec3& target : targets) metrics.centroid_mm += target;
-  metrics.centroid_mm /= static_cast<double>(targets.size());
+  metrics.centroid_mm = centroid_of(targets);
   measure_distances(targets, metrics);
   measure_shape(targets, metrics);
   metrics.enclosing_sphere = minimum_enclosing_sphere(targets);

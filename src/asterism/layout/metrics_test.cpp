@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "asterism/cell/paper_layouts.hpp"
 #include "asterism/core/random.hpp"
 #include "asterism/core/result.hpp"
 #include "asterism/geometry/rigid_motion.hpp"
-#include "asterism/layout/paper_layouts.hpp"
 
 namespace asterism {
 namespace {

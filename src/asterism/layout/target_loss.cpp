@@ -8,6 +8,7 @@
 #include "asterism/core/parallel.hpp"
 #include "asterism/core/random.hpp"
 #include "asterism/core/result.hpp"
+#include "asterism/geometry/point_sets.hpp"
 #include "asterism/statistics/summary.hpp"
 
 namespace asterism {
@@ -20,12 +21,6 @@ constexpr std::size_t kRunsTogether = 64;
 double mean_distance(std::span<const Vec3> points, const Vec3& from) {
   double sum = 0;
   for (const Vec3& point : points) sum += (point - from).norm();
-  return sum / static_cast<double>(points.size());
-}
-
-Vec3 centroid_of(std::span<const Vec3> points) {
-  Vec3 sum = Vec3::Zero();
-  for (const Vec3& point : points) sum += point;
   return sum / static_cast<double>(points.size());
 }
 

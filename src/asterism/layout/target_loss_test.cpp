@@ -5,22 +5,16 @@
 
 #include <cmath>
 
+#include "asterism/cell/paper_layouts.hpp"
 #include "asterism/core/parallel.hpp"
 #include "asterism/core/result.hpp"
-#include "asterism/layout/paper_layouts.hpp"
 
 namespace asterism {
 namespace {
 
-std::vector<Layout> table1() {
-  std::vector<Layout> layouts;
-  for (const PublishedLayout& layout : paper_table1()) layouts.push_back(layout.targets);
-  return layouts;
-}
-
 // Enumerated independently of this code, with noise of 0.1 mm.
 TEST(ExpectTargetLoss, GivesTheEnumeratedFiguresOfThePapersLayouts) {
-  const auto expected = expect_target_loss(table1(), {}, 1000);
+  const auto expected = expect_target_loss(places_of(paper_table1()), {}, 1000);
   const LossFigures golden[] = {{284.55, 7.01, 5748.3, 1080.5, 0.810},
                                 {312.23, 8.59, 6121.5, 1151.0, 0.758},
                                 {264.61, 7.02, 5412.3, 1018.8, 0.998}};
@@ -39,7 +33,7 @@ TEST(ExpectTargetLoss, GivesTheCostOfEachDefinition) {
   const LayoutCost costs[] = {LayoutCost::DistanceToFullCentroid, LayoutCost::DistanceToOrigin,
                               LayoutCost::MeanPairDistance};
   for (std::size_t c = 0; c < 3; ++c) {
-    const auto expected = expect_target_loss(table1(), {.cost = costs[c]}, 1000);
+    const auto expected = expect_target_loss(places_of(paper_table1()), {.cost = costs[c]}, 1000);
     for (std::size_t l = 0; l < 3; ++l) {
       EXPECT_NEAR(expected[l].expected.mean_cost_mm, golden[c][l], tolerance[c]);
     }
@@ -51,8 +45,8 @@ TEST(DrawTargetLoss, AgreesWithTheEnumerationToFourStandardErrors) {
   for (const LayoutCost cost : {LayoutCost::DistanceToOwnCentroid, LayoutCost::DistanceToFullCentroid,
                                 LayoutCost::DistanceToOrigin, LayoutCost::MeanPairDistance}) {
     const TargetLossModel model{.cost = cost};
-    const auto drawn = figures_of(draw_target_loss(table1(), model, kRuns, 1));
-    const auto expected = expect_target_loss(table1(), model, kRuns);
+    const auto drawn = figures_of(draw_target_loss(places_of(paper_table1()), model, kRuns, 1));
+    const auto expected = expect_target_loss(places_of(paper_table1()), model, kRuns);
     for (std::size_t l = 0; l < 3; ++l) {
       const auto& [mean, error] = expected[l];
       EXPECT_NEAR(drawn[l].mean_cost_mm, mean.mean_cost_mm, 4 * error.mean_cost_mm);
@@ -68,7 +62,7 @@ TEST(DrawTargetLoss, AgreesWithTheEnumerationToFourStandardErrors) {
 }
 
 TEST(DrawTargetLoss, GivesTheSameBitsForAnyThreadCount) {
-  const auto layouts = table1();
+  const auto layouts = places_of(paper_table1());
   set_thread_count(1);
   const auto one = draw_target_loss(layouts, {}, 1000, 5);
   set_thread_count(0);
@@ -83,7 +77,7 @@ TEST(DrawTargetLoss, GivesTheSameBitsForAnyThreadCount) {
 }
 
 TEST(DrawTargetLoss, LeavesEverythingOrNothingAtTheEnds) {
-  const auto layouts = table1();
+  const auto layouts = places_of(paper_table1());
   const auto all = figures_of(draw_target_loss(layouts, {.loss_probability = 0, .noise_mm = 0}, 10, 1));
   EXPECT_NEAR(all[0].mean_coverage_mm, 5748.3 / (0.95 * 0.95), 0.1);  // each pair is left with 0.95²
   EXPECT_EQ(all[0].coverage_deviation_mm, 0);
@@ -94,8 +88,9 @@ TEST(DrawTargetLoss, LeavesEverythingOrNothingAtTheEnds) {
 
 TEST(DrawTargetLoss, RefusesAnEmptyLayoutAndANonsenseProbability) {
   EXPECT_THROW(static_cast<void>(draw_target_loss(std::vector<Layout>{{}}, {}, 1, 1)), ContractViolation);
-  EXPECT_THROW(static_cast<void>(draw_target_loss(table1(), {.loss_probability = 1.5}, 1, 1)),
-               ContractViolation);
+  EXPECT_THROW(
+      static_cast<void>(draw_target_loss(places_of(paper_table1()), {.loss_probability = 1.5}, 1, 1)),
+      ContractViolation);
 }
 
 }  // namespace

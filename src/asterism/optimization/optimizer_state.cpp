@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "asterism/optimization/optimizer_state.hpp"
 
-#include <bit>
 #include <cstring>
 #include <span>
 #include <type_traits>
 
+#include "asterism/core/checksum.hpp"
 #include "asterism/core/result.hpp"
 
 namespace asterism {
@@ -157,18 +157,12 @@ OptimizerState optimizer_state_from_bytes(const std::string& bytes) { return rea
 IslandState island_state_from_bytes(const std::string& bytes) { return read<IslandState>(bytes); }
 
 std::uint64_t checksum(const std::vector<Candidate>& candidates) {
-  std::uint64_t mark = 0xcbf29ce484222325;
-  const auto add = [&mark](const std::vector<double>& values) {
-    for (const double value : values) {
-      const auto bits = std::bit_cast<std::uint64_t>(value);
-      for (int shift = 0; shift < 64; shift += 8) mark = (mark ^ ((bits >> shift) & 0xff)) * 0x100000001b3;
-    }
-  };
+  Checksum sum;
   for (const Candidate& candidate : candidates) {
-    add(candidate.genes);
-    add(candidate.objectives);
+    sum.add(candidate.genes);
+    sum.add(candidate.objectives);
   }
-  return mark;
+  return sum.value();
 }
 
 }  // namespace asterism

@@ -9,6 +9,7 @@
 #include "asterism/core/random.hpp"
 #include "asterism/core/result.hpp"
 #include "asterism/geometry/linear_algebra.hpp"
+#include "asterism/geometry/point_sets.hpp"
 #include "asterism/geometry/rigid_fit.hpp"
 #include "asterism/reproduction/papers_cell.hpp"
 #include "asterism/statistics/summary.hpp"
@@ -17,12 +18,6 @@ namespace asterism {
 namespace {
 
 constexpr std::uint32_t kDisturbing = 0x64697374;  // the purpose of its random streams
-
-Vec3 centroid_of(std::span<const Vec3> points) {
-  Vec3 sum = Vec3::Zero();
-  for (const Vec3& point : points) sum += point;
-  return sum / static_cast<double>(points.size());
-}
 
 std::uint64_t stream_of(std::uint64_t experiment, std::size_t runs, std::size_t run) {
   return experiment * runs + run;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "asterism/layout/paper_layouts.hpp"
+#include "asterism/cell/paper_layouts.hpp"
 #include "asterism/reproduction/chapters.hpp"
 #include "asterism/reproduction/comparison_claims.hpp"
 #include "asterism/reproduction/disturbance.hpp"

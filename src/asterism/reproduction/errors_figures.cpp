@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "asterism/layout/paper_layouts.hpp"
+#include "asterism/cell/paper_layouts.hpp"
 #include "asterism/reproduction/comparison_claims.hpp"
 #include "asterism/reproduction/drawing.hpp"
 #include "asterism/reproduction/plot.hpp"

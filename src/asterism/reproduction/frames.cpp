@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "asterism/cell/paper_layouts.hpp"
 #include "asterism/layout/frame.hpp"
 #include "asterism/layout/metrics.hpp"
-#include "asterism/layout/paper_layouts.hpp"
 #include "asterism/reproduction/chapters.hpp"
 #include "asterism/reproduction/frames_figures.hpp"
 #include "asterism/reproduction/printed.hpp"

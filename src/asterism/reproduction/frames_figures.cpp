@@ -5,9 +5,9 @@
 
 #include <cmath>
 
+#include "asterism/cell/paper_layouts.hpp"
 #include "asterism/layout/frame.hpp"
 #include "asterism/layout/metrics.hpp"
-#include "asterism/layout/paper_layouts.hpp"
 #include "asterism/reproduction/drawing.hpp"
 #include "asterism/reproduction/printed.hpp"
 

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <string>
 
-#include "asterism/layout/paper_layouts.hpp"
+#include "asterism/cell/paper_layouts.hpp"
 #include "asterism/layout/target_loss.hpp"
 #include "asterism/reproduction/chapters.hpp"
 #include "asterism/reproduction/losses_figures.hpp"
@@ -42,14 +42,8 @@ const Printed kPrinted[] = {
     {"F14.10", "pareto_S2", "Pareto frequency S2, %", &LossFigures::front_share, 1, "75.0", 100},
     {"F14.11", "pareto_S3", "Pareto frequency S3, %", &LossFigures::front_share, 2, "99.6", 100}};
 
-std::vector<Layout> layouts_of_table1() {
-  std::vector<Layout> layouts;
-  for (const PublishedLayout& layout : paper_table1()) layouts.push_back(layout.targets);
-  return layouts;
-}
-
 std::vector<LossExpectation> expect(const TargetLossModel& model, std::size_t runs = kPaperRuns) {
-  return expect_target_loss(layouts_of_table1(), model, runs);
+  return expect_target_loss(places_of(paper_table1()), model, runs);
 }
 
 /// How probable the eleven figures are as one draw of the model, taken for independent: cost and coverage
@@ -144,7 +138,7 @@ void add_conclusions(std::vector<LedgerRow>& rows, const std::vector<LossExpecta
 }  // namespace
 
 Chapter losses_chapter(std::uint64_t seed) {
-  const auto draws = draw_target_loss(layouts_of_table1(), {}, kPaperRuns, seed);
+  const auto draws = draw_target_loss(places_of(paper_table1()), {}, kPaperRuns, seed);
   const std::vector<LossFigures> drawn = figures_of(draws);
   const std::vector<LossExpectation> expected = expect({});
   Chapter chapter{"Lost targets (Section 3.3)", {}, losses_exhibits(draws, drawn, expected)};

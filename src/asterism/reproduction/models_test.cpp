@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "asterism/cell/paper_layouts.hpp"
 #include "asterism/core/random.hpp"
-#include "asterism/layout/paper_layouts.hpp"
 #include "asterism/reproduction/disturbance.hpp"
 #include "asterism/reproduction/next_generation.hpp"
 #include "asterism/reproduction/papers_cell.hpp"

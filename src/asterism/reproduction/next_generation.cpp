@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "asterism/core/random.hpp"
+#include "asterism/layout/genome.hpp"
 #include "asterism/optimization/variation.hpp"
 #include "asterism/reproduction/printed.hpp"
 #include "asterism/statistics/summary.hpp"
@@ -16,19 +17,6 @@ namespace {
 
 constexpr std::uint32_t kBreeding = 0x62726564, kTournament = 0x746f7572, kAveraging = 0x65713330;
 constexpr std::size_t kChildren = 50000;
-
-std::vector<double> genes_of(std::span<const Vec3> targets) {
-  std::vector<double> genes;
-  for (const Vec3& target : targets) genes.insert(genes.end(), {target.x(), target.y(), target.z()});
-  return genes;
-}
-
-std::array<double, 2> objectives_of_genes(const std::vector<double>& genes) {
-  std::vector<Vec3> targets;
-  for (std::size_t i = 0; i + 2 < genes.size(); i += 3)
-    targets.emplace_back(genes[i], genes[i + 1], genes[i + 2]);
-  return objectives_of(targets);
-}
 
 /// Who of two wins; a tie goes half to each.
 double share_of_first(const Scheme& first, const Scheme& second) {
@@ -58,7 +46,7 @@ std::vector<std::array<double, 2>> children_of_table9(double bound_mm, std::size
     variation.cross(mother, father, lowest, highest, daughter, son, random);
     for (std::vector<double>* child : {&daughter, &son}) {
       variation.mutate(*child, lowest, highest, random);
-      if (children.size() < count) children.push_back(objectives_of_genes(*child));
+      if (children.size() < count) children.push_back(objectives_of(positions_of(*child)));
     }
   }
   return children;

@@ -7,7 +7,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "asterism/layout/paper_layouts.hpp"
+#include "asterism/cell/paper_layouts.hpp"
+#include "asterism/layout/genome.hpp"
 #include "asterism/reproduction/disturbance.hpp"
 #include "asterism/reproduction/papers_cell.hpp"
 #include "asterism/statistics/summary.hpp"
@@ -49,11 +50,7 @@ std::vector<ObjectiveInfo> PapersProblem::objectives() const {
 
 std::vector<Genes> PapersProblem::seeds() const {
   std::vector<Genes> seeds;
-  for (const PublishedLayout& layout : paper_table9()) {
-    Genes genes;
-    for (const Vec3& target : layout.targets) genes.insert(genes.end(), {target.x(), target.y(), target.z()});
-    seeds.push_back(std::move(genes));
-  }
+  for (const PublishedLayout& layout : paper_table9()) seeds.push_back(genes_of(layout.targets));
   return seeds;
 }
 

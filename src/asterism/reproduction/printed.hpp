@@ -8,7 +8,7 @@
 #include "asterism/geometry/types.hpp"
 
 // The paper's tables as they are printed (Machines 2025, 13, 592). Numbers that are compared stand as text,
-// for their last digit says how far they were rounded. Tables 1 and 9 are in layout/paper_layouts.hpp.
+// for their last digit says how far they were rounded. Tables 1 and 9 are in cell/paper_layouts.hpp.
 
 namespace asterism::printed {
 

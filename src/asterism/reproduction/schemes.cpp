@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "asterism/cell/paper_layouts.hpp"
 #include "asterism/layout/metrics.hpp"
-#include "asterism/layout/paper_layouts.hpp"
 #include "asterism/optimization/crowding.hpp"
 #include "asterism/optimization/non_dominated_sort.hpp"
 

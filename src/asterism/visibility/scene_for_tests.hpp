@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "asterism/cell/cell.hpp"
+#include "asterism/cell/paper_layouts.hpp"
 
 // The paper's layouts, and a cell to see them from.
 
@@ -12,29 +13,8 @@ namespace asterism::scene {
 
 using Layout = std::vector<Vec3>;
 
-/// Table 1, schemes S1 to S3.
-inline const std::vector<Layout> kTable1 = {
-    {{250, 0, 600}, {0, 300, 610}, {-250, 0, 590}, {0, -300, 605}, {220, 220, 580}, {-220, -220, 605}},
-    {{300, 100, 610},
-     {100, 320, 620},
-     {-300, 80, 590},
-     {-120, -280, 600},
-     {230, 240, 590},
-     {-240, -200, 610}},
-    {{200, -100, 590},
-     {-100, 300, 610},
-     {-200, 100, 600},
-     {0, -250, 605},
-     {210, 180, 580},
-     {-200, -240, 590}}};
-
-/// Table 9, schemes S1 to S5; the second target of S4 with the sign that its printed coverage needs.
-inline const std::vector<Layout> kTable9 = {
-    {{250, 0, 600}, {0, 300, 610}, {-250, 0, 590}, {0, -300, 605}},
-    {{350, 350, 600}, {-350, 350, 610}, {-350, -350, 590}, {350, -350, 605}},
-    {{500, 0, 620}, {0, 680, 600}, {-500, 0, 610}, {0, -680, 605}},
-    {{220, 220, 580}, {220, -220, 590}, {-220, 220, 595}, {-220, -220, 605}},
-    {{600, 100, 610}, {100, 600, 600}, {-600, -100, 590}, {-100, -600, 620}}};
+inline const std::vector<Layout> kTable1 = places_of(paper_table1());
+inline const std::vector<Layout> kTable9 = places_of(paper_table9());
 
 /// Discs of 12 mm that face up, tilted outwards by 0.3.
 inline std::vector<Target> targets_of(const Layout& layout) {

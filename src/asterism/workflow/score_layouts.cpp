@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "asterism/cell/paper_layouts.hpp"
 #include "asterism/core/parallel.hpp"
 #include "asterism/core/result.hpp"
 #include "asterism/io/body_file.hpp"
 #include "asterism/io/options_file.hpp"
-#include "asterism/layout/paper_layouts.hpp"
 #include "asterism/report/layout_report.hpp"
 #include "asterism/report/layout_words.hpp"
 #include "asterism/workflow/design_layout.hpp"

@@ -22,4 +22,7 @@ struct PublishedLayout {
 /// printed −220 none of its other figures (Tables 10 and 11) comes out.
 [[nodiscard]] const std::vector<PublishedLayout>& paper_table9();
 
+/// Without their names.
+[[nodiscard]] std::vector<std::vector<Vec3>> places_of(const std::vector<PublishedLayout>& layouts);
+
 }  // namespace asterism

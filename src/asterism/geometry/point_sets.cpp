@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "asterism/layout/pair_distances.hpp"
+#include "asterism/geometry/point_sets.hpp"
 
 #include <algorithm>
 
 namespace asterism {
+
+Vec3 centroid_of(std::span<const Vec3> points) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& point : points) sum += point;
+  return sum / static_cast<double>(points.size());
+}
 
 std::vector<double> distances_of(std::span<const Vec3> points) {
   std::vector<double> distances;
@@ -14,8 +20,8 @@ std::vector<double> distances_of(std::span<const Vec3> points) {
   return distances;
 }
 
-std::vector<PointPair> pairs_by_distance(std::span<const Vec3> points) {
-  std::vector<PointPair> pairs;
+std::vector<SpacedPair> pairs_by_distance(std::span<const Vec3> points) {
+  std::vector<SpacedPair> pairs;
   pairs.reserve(points.size() * points.size() / 2);
   for (std::size_t j = 0; j < points.size(); ++j) {
     for (std::size_t i = 0; i < j; ++i) pairs.push_back({(points[i] - points[j]).norm(), i, j});

@@ -9,16 +9,19 @@
 
 namespace asterism {
 
+/// The mean of one point or more.
+[[nodiscard]] Vec3 centroid_of(std::span<const Vec3> points);
+
 /// Distances between all points, row by row.
 [[nodiscard]] std::vector<double> distances_of(std::span<const Vec3> points);
 
-struct PointPair {
+struct SpacedPair {
   double distance;
   std::size_t first, second;  // first < second
-  [[nodiscard]] auto operator<=>(const PointPair&) const = default;
+  [[nodiscard]] auto operator<=>(const SpacedPair&) const = default;
 };
 
 /// Every two points, nearest first.
-[[nodiscard]] std::vector<PointPair> pairs_by_distance(std::span<const Vec3> points);
+[[nodiscard]] std::vector<SpacedPair> pairs_by_distance(std::span<const Vec3> points);
 
 }  // namespace asterism

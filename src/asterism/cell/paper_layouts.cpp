@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "asterism/layout/paper_layouts.hpp"
+#include "asterism/cell/paper_layouts.hpp"
 
 namespace asterism {
 
@@ -32,6 +32,12 @@ const std::vector<PublishedLayout>& paper_table9() {
       {"Table 9 S4", {{220, 220, 580}, {220, -220, 590}, {-220, 220, 595}, {-220, -220, 605}}},
       {"Table 9 S5", {{600, 100, 610}, {100, 600, 600}, {-600, -100, 590}, {-100, -600, 620}}}};
   return layouts;
+}
+
+std::vector<std::vector<Vec3>> places_of(const std::vector<PublishedLayout>& layouts) {
+  std::vector<std::vector<Vec3>> places;
+  for (const PublishedLayout& layout : layouts) places.push_back(layout.targets);
+  return places;
 }
 
 }  // namespace asterism
