@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "asterism/cell/paper_layouts.hpp"
-#include "asterism/core/checksum.hpp"
 #include "asterism/core/result.hpp"
 
 namespace asterism {
@@ -20,57 +19,6 @@ enum Purpose : std::uint32_t { kGreedyPlaces = 11, kPoissonSeeds };
 constexpr double kNoErrorMm = 1e6;    // stands for an error that has no value; such layouts are infeasible
 constexpr int kPoissonSeedsEach = 2;  // for each number of targets
 constexpr double kCut = 0.3;          // share of children by a cut through space
-
-/// A mark of everything that decides about the values.
-class Mark {
- public:
-  void add(double value) { sum_.add(value); }
-  void add(const Vec3& vector) {
-    for (int i = 0; i < 3; ++i) add(vector(i));
-  }
-  void add(const RigidMotion& motion) {
-    add(motion.translation);
-    for (int i = 0; i < 4; ++i) add(motion.rotation.coeffs()(i));
-  }
-  void add(const std::vector<Target>& targets) {
-    for (const Target& target : targets) add(target.position);
-    add(static_cast<double>(targets.size()));
-  }
-  [[nodiscard]] std::uint64_t value() const { return sum_.value(); }
-
- private:
-  Checksum sum_;
-};
-
-/// Adds each number of options to a mark.
-class MarkOptions : public OptionVisitor {
- public:
-  explicit MarkOptions(Mark& mark) : mark_(mark) {}
-  void number(std::string_view, double& value, Limits, std::string_view) override { mark_.add(value); }
-  void integer(std::string_view, int& value, Limits, std::string_view) override { mark_.add(value); }
-  void flag(std::string_view, bool& value, std::string_view) override { mark_.add(value ? 1.0 : 0.0); }
-  void text(std::string_view, std::string& value, std::string_view) override {
-    for (const char c : value) mark_.add(static_cast<double>(c));
-  }
-  void choice(std::string_view, int& index, const std::vector<std::string>&, std::string_view) override {
-    mark_.add(index);
-  }
-
- private:
-  Mark& mark_;
-};
-
-/// A surface is told by its places: the same draws fall on the same spots.
-void mark_surface(const LayoutRules& rules, Mark& mark) {
-  RandomStream random(0, 0);
-  for (int i = 0; i < 64; ++i) {
-    const auto place = random_place(rules.surface, rules.clearance_mm, random);
-    if (!place) continue;
-    mark.add(place->position_mm);
-    mark.add(place->normal);
-  }
-  mark.add(rules.spacing_mm);
-}
 
 bool fits(std::span<const Vec3> layout, const LayoutRules& rules) {
   const auto count = static_cast<int>(layout.size());
@@ -138,41 +86,6 @@ LayoutProblem::LayoutProblem(const Cell& cell, const DesignerOptions& options) {
   variation.mutations = 1;
   variation_ = Variation(variation);
   model_ = std::move(model);
-}
-
-std::string LayoutProblem::identity() const {
-  const LayoutModel& model = *model_;
-  std::string text = "layout of " + model.task.body + ":";
-  for (const Q quantity : model.objectives) text += " " + info_of(quantity).name;
-  for (const LayoutConstraint& constraint : model.constraints) {
-    text += fmt::format(", {} {}", info_of(constraint.quantity).name, constraint.bound);
-  }
-  Mark mark;
-  MarkOptions mark_options(mark);
-  LayoutTask task = model.task;
-  VisibilityOptions visibility = model.options.visibility;
-  AccuracyOptions accuracy = model.options.accuracy;
-  describe(task, mark_options);
-  describe(visibility, mark_options);
-  describe(accuracy, mark_options);
-  mark.add(identifiability_cap_mm_);
-  mark_surface(model.rules, mark);
-  for (const RigidMotion& pose : model.motion.tracker_from_body) mark.add(pose);
-  mark.add(model.motion.rig.right_from_left);
-  for (const Lens* lens : {&model.motion.rig.left, &model.motion.rig.right}) {
-    for (const double value : {lens->fx, lens->fy, lens->cx, lens->cy}) mark.add(value);
-    mark.add(lens->width_px);
-    mark.add(lens->height_px);
-  }
-  if (model.volume) {
-    WorkingVolume volume = *model.volume;
-    describe(volume, mark_options);
-  }
-  for (const Vec3& point : model.points) mark.add(point);
-  mark.add(model.present);
-  for (const Body& other : model.others) mark.add(other.targets);
-  return fmt::format("{}; {} to {} targets; {:016x}", text, model.rules.fewest, model.rules.most,
-                     mark.value());
 }
 
 std::vector<ObjectiveInfo> LayoutProblem::objectives() const {

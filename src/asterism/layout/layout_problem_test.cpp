@@ -117,6 +117,13 @@ TEST(LayoutProblem, IsToldApartByWhatDecides) {
   Cell point = paper_cell();
   point.layout->points[0].in_body_mm.x() += 1;
   EXPECT_NE(LayoutProblem(point, {}).identity(), identity);
+  Cell lens = paper_cell();
+  lens.rig.right.distortion[0] = 0.01;
+  lens.rig.right.coefficients = 4;
+  EXPECT_NE(LayoutProblem(lens, {}).identity(), identity);
+  Cell clamp = paper_cell();
+  clamp.layout->surface.keep_outs.push_back({"clamp", Box{{2, 2, 2}}, {}});  // where nothing stands anyway
+  EXPECT_NE(LayoutProblem(clamp, {}).identity(), identity);
 }
 
 TEST(LayoutProblem, TellsWhichTaskIsNone) {
