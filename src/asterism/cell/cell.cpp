@@ -48,7 +48,11 @@ void describe(Sensor& sensor, OptionVisitor& visit) {
                "fixed-pattern gain from pixel to pixel, 1 sigma");
   visit.number("offset_level", sensor.offset_level, {0, 0.9},
                "offset of the electronics, share of full scale");
-  visit.number("blur_px", sensor.blur_px, {0, 20}, "sigma of the lens's Gaussian blur");
+  visit.number("blur_px", sensor.blur_px, {0, 20}, "sigma of the lens's Gaussian blur, in focus");
+  visit.number("focus_mm", sensor.focus_mm, {0, 1e6},
+               "depth at which the lens is sharp; 0 = sharp everywhere");
+  visit.number("aperture_mm", sensor.aperture_mm, {0, 1000},
+               "diameter of the lens's opening, by which what is out of focus blurs");
   visit.number("exposure_s", sensor.exposure_s, {0, 10}, "time over which a picture gathers light");
   visit.number("lost_frames", sensor.lost_frames, {0, 1}, "share of frames that each camera loses");
 }
@@ -67,6 +71,8 @@ void describe(Light& light, OptionVisitor& visit) {
                "background's change from top to bottom, share of itself");
   visit.number("vignetting", light.vignetting, {0, 1}, "share of the light lost in the image's corners");
   visit.number("glints", light.glints, {0, 1000}, "mean number of false bright specks and streaks an image");
+  visit.number("specular", light.specular, {0, 10},
+               "brightness of the part where it mirrors the cameras' lamps back, share of full scale");
 }
 
 void describe(Timing& timing, OptionVisitor& visit) {

@@ -8,9 +8,14 @@
 
 #include "asterism/camera/stereo_rig.hpp"
 #include "asterism/cell/body.hpp"
+#include "asterism/cell/disturbance.hpp"
 #include "asterism/cell/layout_task.hpp"
 #include "asterism/cell/motion.hpp"
+#include "asterism/cell/platform.hpp"
+#include "asterism/cell/scanner.hpp"
 #include "asterism/cell/shape.hpp"
+#include "asterism/cell/solid.hpp"
+#include "asterism/cell/verification.hpp"
 #include "asterism/cell/working_volume.hpp"
 #include "asterism/core/options.hpp"
 
@@ -23,7 +28,9 @@ struct Sensor {
   double read_noise_e = 7;
   double gain_spread = 0.004;   // fixed-pattern gain, 1σ; the same in every frame
   double offset_level = 0.016;  // added by the electronics, without shot noise
-  double blur_px = 0.55;        // σ of the Gaussian point spread
+  double blur_px = 0.55;        // σ of the Gaussian point spread, in focus
+  double focus_mm = 0;          // depth at which the lens is sharp; 0 = sharp everywhere
+  double aperture_mm = 8;       // diameter of the lens's opening: what is out of focus blurs by it
   double exposure_s = 0.001;
   double lost_frames = 0;  // share of frames each camera loses
 };
@@ -39,6 +46,7 @@ struct Light {
   double gradient_y = 0;
   double vignetting = 0;  // share of the light lost in the image's corners
   double glints = 0;      // mean number of false bright specks and streaks an image
+  double specular = 0;    // brightness of the part where its surface mirrors the cameras' lamps back to them
 };
 void describe(Light& light, OptionVisitor& visit);
 
@@ -55,17 +63,25 @@ struct Mover {
   Motion motion;
 };
 
-/// A measuring cell as far as tracking sees it. Its root frame is `tracker`, the left camera.
+/// A measuring cell. Its root frame is `tracker`, the left camera.
 struct Cell {
   std::string name;
   StereoRig rig;
   std::vector<Mover> movers;
   std::vector<Obstacle> obstacles;
+  std::optional<Platform> platform;
+  std::optional<Solid> workpiece;  // carried by the platform
+  std::vector<Solid> fixtures;     // clamps, the platform's own body, the scanner's housing
+  std::optional<Scanner> scanner;
   Sensor sensor;
   Light light;
   Timing timing;
   std::optional<WorkingVolume> volume;  // where the tracker is good; none: wherever both cameras see
   std::optional<LayoutTask> layout;     // what is asked of the targets of one body
+  NoiseModel noise;
+  std::vector<TargetFault> faults;
+  std::vector<Lamp> lamps;
+  Verification verification;
 };
 
 /// Throws InputError for: a bad rig or body (check_rig, check_bodies), key times that do not increase, an
