@@ -34,11 +34,13 @@ class Occlusion {
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
   /// Share of a target's disc from which the camera is seen. `target` is in the frame of mover `carrier`;
-  /// `tracker_from_mover` holds one pose a mover of the cell.
+  /// `tracker_from_mover` holds one pose a mover of the cell. Rays begin on the disc's face; a target without
+  /// normal or diameter is a point, asked by one ray.
   [[nodiscard]] double free_share(const Target& target, std::size_t carrier,
                                   std::span<const RigidMotion> tracker_from_mover, Side side) const;
 
-  /// The solid that hides most of the disc; none when it is free.
+  /// The solid that hides most of the disc (on each ray the first one met counts); none when the share that
+  /// is free is enough.
   [[nodiscard]] std::optional<std::size_t> hidden_by(const Target& target, std::size_t carrier,
                                                      std::span<const RigidMotion> tracker_from_mover,
                                                      Side side) const;
@@ -54,6 +56,13 @@ class Occlusion {
     std::vector<std::size_t> members;  // places in names_, by surface of the tree
     RayScene tree;
   };
+  struct Before;
+  [[nodiscard]] std::vector<Before> before(std::size_t carrier,
+                                           std::span<const RigidMotion> tracker_from_mover,
+                                           const Vec3& eye_in_tracker) const;
+  [[nodiscard]] Vec3 eye_of(Side side) const;
+  [[nodiscard]] std::size_t most_blocked(std::size_t rays) const;
+
   StereoRig rig_;
   OcclusionOptions options_;
   std::vector<std::string> names_;

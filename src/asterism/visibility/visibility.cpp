@@ -45,8 +45,8 @@ void describe(VisibilityOptions& options, OptionVisitor& visit) {
 
 std::string_view text_of(SightFailure failure) {
   static constexpr std::array<std::string_view, kSightFailures> kTexts = {
-      "behind the camera", "outside the working volume", "too oblique", "outside the image",
-      "too small",         "too close to another target"};
+      "behind the camera", "outside the working volume",  "too oblique", "outside the image",
+      "too small",         "too close to another target", "hidden"};
   return kTexts[static_cast<std::size_t>(failure)];
 }
 

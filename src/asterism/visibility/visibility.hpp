@@ -25,8 +25,9 @@ struct VisibilityOptions {
 void describe(VisibilityOptions& options, OptionVisitor& visit);
 
 /// Why a camera does not see a target, in the order in which it is asked.
-enum class SightFailure { BehindCamera, OutsideVolume, TooOblique, OutsideImage, TooSmall, TooClose };
-constexpr std::size_t kSightFailures = 6;
+/// What stands in the way is asked last and by Occlusion alone; look_at never tells Hidden.
+enum class SightFailure { BehindCamera, OutsideVolume, TooOblique, OutsideImage, TooSmall, TooClose, Hidden };
+constexpr std::size_t kSightFailures = 7;
 [[nodiscard]] std::string_view text_of(SightFailure failure);
 
 /// One target before one camera. A target without a normal counts as seen square on, one without a diameter

@@ -28,10 +28,11 @@ struct WatchedCell {
   std::vector<double> times_s;
   std::vector<std::vector<RigidMotion>> poses;  // [pose][mover], tracker_from_body
   std::vector<WatchedBody> bodies;              // one a mover
-  std::vector<double> coverage;                 // by pose; empty without a platform
+  std::vector<double> coverage;                 // by pose, at the centroid of the platform's targets; empty
+                                                // without a platform
 };
 
-/// Every target of every body at each of these moments.
+/// Every target of every body at each of these moments. The volume is the cell's.
 [[nodiscard]] WatchedCell watch_cell(const Cell& cell, std::span<const double> times_s,
                                      const VisibilityOptions& visibility, const Occlusion& occlusion);
 
@@ -45,7 +46,9 @@ struct WatchedCell {
 using HiddenCounts = std::vector<std::array<std::vector<int>, 2>>;
 [[nodiscard]] HiddenCounts count_hidden(const WatchedBody& body, std::size_t solids);
 
-/// A body's visible count over roll × pitch about the platform's pivot, from its place of rest.
+/// A body's visible count over roll × pitch from its place of rest (Ry(pitch) Rx(roll)), about the pivot of
+/// its sweep; of a body that moves otherwise, from where it begins and about its frame's origin. The other
+/// bodies stand where they begin.
 struct AttitudeMap {
   std::vector<double> roll_deg, pitch_deg;
   std::vector<std::vector<int>> visible;  // [pitch][roll]: targets both cameras see
