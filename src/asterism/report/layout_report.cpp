@@ -16,12 +16,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json of_motion(const RigidMotion& motion) {
-  Json row = Json::array();
-  append_motion(row, motion);
-  return row;
-}
-
 Json of_patch(const NamedPatch& named) {
   struct Of {
     Json operator()(const CylinderSide& p) const {
@@ -42,7 +36,7 @@ Json of_patch(const NamedPatch& named) {
     }
     Json operator()(const Plate& p) const {
       return {{"kind", "plate"},
-              {"pose", of_motion(p.body_from_plate)},
+              {"pose", json_of_motion(p.body_from_plate)},
               {"width_mm", p.width_mm},
               {"height_mm", p.height_mm}};
     }
@@ -76,19 +70,8 @@ Json of_solid(const std::string& name, const Shape& shape, const RigidMotion& bo
   };
   Json json = std::visit(Of{}, shape);
   json["name"] = name;
-  json["pose"] = of_motion(body_from_shape);
+  json["pose"] = json_of_motion(body_from_shape);
   return json;
-}
-
-Json of_volume(const Cell& cell) {
-  if (!cell.volume) return nullptr;
-  const WorkingVolume& v = *cell.volume;
-  return {{"pose", of_motion(tracker_from_middle(cell.rig))},
-          {"near_mm", v.near_mm},
-          {"far_mm", v.far_mm},
-          {"near_size_mm", {v.near_width_mm, v.near_height_mm}},
-          {"far_size_mm", {v.far_width_mm, v.far_height_mm}},
-          {"m3", digits(volume_m3(v), 3)}};
 }
 
 Json of_body_in_motion(const LayoutReport& report) {
@@ -97,7 +80,7 @@ Json of_body_in_motion(const LayoutReport& report) {
     if (mover.body.name != report.cell.layout->body) continue;
     for (const double time_s : report.pose_times_s) {
       time.push_back(decimals(time_s, 4));
-      pose.push_back(of_motion(pose_at(mover.motion, time_s)));
+      pose.push_back(json_of_motion(pose_at(mover.motion, time_s)));
     }
   }
   return {{"time_s", time}, {"pose", pose}};
@@ -221,7 +204,7 @@ std::string layout_report_json(const LayoutReport& report) {
                      {"remarks", report.remarks},
                      {"body", task.body},
                      {"rig", json_of_rig(report.cell.rig)},
-                     {"volume", of_volume(report.cell)},
+                     {"volume", json_of_volume(report.cell.volume, report.cell.rig)},
                      {"patches", patches},
                      {"keep_outs", keep_outs},
                      {"obstacles", obstacles},

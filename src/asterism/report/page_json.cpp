@@ -47,14 +47,35 @@ void append_motion(Json& row, const RigidMotion& motion) {
   for (const double value : {q.w(), q.x(), q.y(), q.z()}) row.push_back(decimals(value, 9));
 }
 
+Json json_of_motion(const RigidMotion& motion) {
+  Json row = Json::array();
+  append_motion(row, motion);
+  return row;
+}
+
+void append_upper(Json& row, const Mat3& covariance) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j) row.push_back(digits(covariance(i, j), 5));
+}
+
 bool is_finite(const RigidMotion& motion) {
   return motion.translation.allFinite() && motion.rotation.coeffs().allFinite();
 }
 
 Json json_of_rig(const StereoRig& rig) {
-  Json motion = Json::array();
-  append_motion(motion, rig.right_from_left);
-  return {{"left", of_lens(rig.left)}, {"right", of_lens(rig.right)}, {"right_from_left", motion}};
+  return {{"left", of_lens(rig.left)},
+          {"right", of_lens(rig.right)},
+          {"right_from_left", json_of_motion(rig.right_from_left)}};
+}
+
+Json json_of_volume(const std::optional<WorkingVolume>& volume, const StereoRig& rig) {
+  if (!volume) return nullptr;
+  return {{"pose", json_of_motion(tracker_from_middle(rig))},
+          {"near_mm", volume->near_mm},
+          {"far_mm", volume->far_mm},
+          {"near_size_mm", {volume->near_width_mm, volume->near_height_mm}},
+          {"far_size_mm", {volume->far_width_mm, volume->far_height_mm}},
+          {"m3", digits(volume_m3(*volume), 3)}};
 }
 
 Json json_of_target(const Target& target) {
@@ -64,15 +85,19 @@ Json json_of_target(const Target& target) {
   return json;
 }
 
-Json json_of_summary(const std::vector<SummaryRow>& rows) {
+const char* word_of(Verdict verdict) {
   constexpr std::array<const char*, 4> kVerdicts = {"plain", "good", "attention", "bad"};
+  return kVerdicts.at(static_cast<std::size_t>(verdict));
+}
+
+Json json_of_summary(const std::vector<SummaryRow>& rows) {
   Json json = Json::array();
   for (const SummaryRow& row : rows) {
     json.push_back({{"label", row.label},
                     {"value", row.value},
                     {"unit", row.unit},
                     {"note", row.note},
-                    {"verdict", kVerdicts.at(static_cast<std::size_t>(row.verdict))}});
+                    {"verdict", word_of(row.verdict)}});
   }
   return json;
 }

@@ -16,11 +16,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-void append_upper(Json& row, const Mat3& covariance) {
-  for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j) row.push_back(digits(covariance(i, j), 5));
-}
-
 /// x y z, w x y z, covariance of `in_body` in the tracker (xx xy xz yy yz zz, mm²), of rotation (rad²).
 Json of_pose(const BodyPose* pose, const Vec3& in_body) {
   if (pose == nullptr || !pose->estimate) return nullptr;
@@ -36,9 +31,7 @@ Json of_pose(const BodyPose* pose, const Vec3& in_body) {
 
 Json of_motion(const std::optional<RigidMotion>& motion) {
   if (!motion || !is_finite(*motion)) return nullptr;
-  Json row = Json::array();
-  append_motion(row, *motion);
-  return row;
+  return json_of_motion(*motion);
 }
 
 const BodyPose* pose_of(const std::vector<BodyPose>& poses, int body) {
