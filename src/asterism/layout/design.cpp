@@ -26,6 +26,13 @@ void describe(DesignerOptions& options, OptionVisitor& visit) {
   describe(options.accuracy, accuracy);
 }
 
+ConstraintState state_of(const LayoutConstraint& constraint, const std::optional<double>& value) {
+  const LayoutQuantityInfo& info = info_of(constraint.quantity);
+  ConstraintState state{info.name, info.unit, info.more_is_better, constraint.bound, value, 0};
+  state.violation = value ? violation_of(constraint, *value) : info.scale;
+  return state;
+}
+
 bool LayoutDesign::feasible() const {
   return std::all_of(constraints.begin(), constraints.end(),
                      [](const ConstraintState& constraint) { return constraint.violation == 0; }) &&

@@ -46,6 +46,10 @@ struct ConstraintState {
   double violation = 0;  // in the unit; 0 = it holds
 };
 
+/// Without a value it is broken by one scale of its quantity.
+[[nodiscard]] ConstraintState state_of(const LayoutConstraint& constraint,
+                                       const std::optional<double>& value);
+
 /// How nearly the layout is taken for another body of the cell.
 struct MarginToBody {
   std::string body;

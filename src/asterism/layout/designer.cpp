@@ -20,13 +20,6 @@ using Q = LayoutQuantity;
 
 constexpr double kOnSurfaceMm = 1e-6;
 
-ConstraintState state_of(const LayoutConstraint& constraint, const std::optional<double>& value) {
-  const LayoutQuantityInfo& info = info_of(constraint.quantity);
-  ConstraintState state{info.name, info.unit, info.more_is_better, constraint.bound, value, 0};
-  state.violation = value ? violation_of(constraint, *value) : info.scale;
-  return state;
-}
-
 /// How far the farthest target is from where it may stand.
 ConstraintState off_surface(const LayoutRules& rules, std::span<const Target> targets) {
   ConstraintState state{"off-surface", "mm", false, 0, 0.0, 0};

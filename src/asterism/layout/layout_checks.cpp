@@ -55,8 +55,7 @@ std::string main_reason(const LayoutModel& model, std::span<const Place> places,
 std::vector<int> seen_places(const LayoutModel& model, std::span<const Place> places) {
   std::vector<MotionVisibility> seen(places.size());
   parallel_for(places.size(), [&](std::size_t i) {
-    seen[i] = visible_targets(model.targets_at(std::vector<Vec3>{places[i].position_mm}), model.motion,
-                              model.volume, model.options.visibility);
+    seen[i] = model.visibility_of(model.targets_at(std::vector<Vec3>{places[i].position_mm}));
   });
   std::vector<int> counts(model.motion.poses());
   for (const MotionVisibility& one : seen) {
@@ -123,7 +122,7 @@ std::vector<PlaceInformation> information_of(const LayoutModel& model, std::span
   by_pairs.single_views = false;
   parallel_for(places.size(), [&](std::size_t i) {
     const auto target = model.targets_at(std::vector<Vec3>{places[i].position_mm});
-    const auto seen = visible_targets(target, model.motion, model.volume, model.options.visibility);
+    const auto seen = model.visibility_of(target);
     for (std::size_t pose = 0; pose < model.motion.poses(); ++pose) {
       const auto one = pose_information(target, seen.seen[pose], model.motion.tracker_from_body[pose],
                                         model.motion.rig, by_pairs);

@@ -121,9 +121,19 @@ std::vector<Target> LayoutModel::completed(std::span<const Target> targets) cons
   return all;
 }
 
+MotionVisibility LayoutModel::visibility_of(std::span<const Target> targets) const {
+  return visible_targets(targets, motion, volume, options.visibility);
+}
+
 LayoutValues LayoutModel::values(std::span<const Target> targets, const QuantitySet& wanted,
                                  double identifiability_cap_mm) const {
+  return values(targets, visibility_of(targets), wanted, identifiability_cap_mm);
+}
+
+LayoutValues LayoutModel::values(std::span<const Target> targets, MotionVisibility seen,
+                                 const QuantitySet& wanted, double identifiability_cap_mm) const {
   LayoutValues values;
+  values.visibility = std::move(seen);
   const auto set = [&](Q quantity, double value) { values.of[static_cast<std::size_t>(quantity)] = value; };
   const std::vector<Vec3> positions = positions_of(targets);
   set(Q::Targets, static_cast<double>(targets.size()));
@@ -140,7 +150,6 @@ LayoutValues LayoutModel::values(std::span<const Target> targets, const Quantity
     const double handling = 0.5 * (bounds.highest - bounds.lowest).norm();
     set(Q::Moving, moving_cost_mm(positions_of(present), positions, handling));
   }
-  values.visibility = visible_targets(targets, motion, volume, options.visibility);
   set(Q::Visible, fewest_visible(values.visibility));
   if (wants(wanted, {Q::Availability})) {
     set(Q::Availability, availability_over(values.visibility, task.loss_probability).mean);

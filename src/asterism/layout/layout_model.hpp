@@ -39,9 +39,15 @@ class LayoutModel {
   /// Throws InputError when the cell has no layout task or its body is not there, and for bad options.
   LayoutModel(const Cell& cell, const DesignerOptions& options);
 
+  /// Which targets each camera sees in each pose of the motion.
+  [[nodiscard]] MotionVisibility visibility_of(std::span<const Target> targets) const;
+
   /// Is a pure function.
   [[nodiscard]] LayoutValues values(std::span<const Target> targets, const QuantitySet& wanted,
                                     double identifiability_cap_mm) const;
+  /// The same where it is known what is seen.
+  [[nodiscard]] LayoutValues values(std::span<const Target> targets, MotionVisibility seen,
+                                    const QuantitySet& wanted, double identifiability_cap_mm) const;
 
   /// Targets P1 … Pn facing as the surface does.
   [[nodiscard]] std::vector<Target> targets_at(std::span<const Vec3> positions) const;
