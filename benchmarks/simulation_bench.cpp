@@ -37,10 +37,11 @@ Cell crowded_cell(int width_px, int height_px, double focal_px, int targets) {
 
 void measure(bench::Table& table, const char* camera, const Cell& cell) {
   const Simulator simulator(cell, {});
+  const Stage stage = stage_of(cell);
   const Raster<float> gain = fixed_pattern(cell.sensor, cell.rig.left, Side::Left, 1);
-  const Raster<float> light = render_light(cell, Side::Left, 0.4, 1, 8);
+  const Raster<float> light = render_light(stage, Side::Left, 0.4, 1, 8);
   int frame = 0;
-  const double draw = bench::median_seconds([&] { (void)render_light(cell, Side::Left, 0.4, 1, 8); }, 7);
+  const double draw = bench::median_seconds([&] { (void)render_light(stage, Side::Left, 0.4, 1, 8); }, 7);
   const double noise =
       bench::median_seconds([&] { (void)expose(light, gain, cell.sensor, Side::Left, 1, ++frame); }, 7);
   const double whole = bench::median_seconds([&] { (void)simulator.frame(++frame); }, 7);

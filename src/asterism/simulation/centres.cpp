@@ -23,6 +23,14 @@ Centre centre_at(const Ellipse& ellipse, const Cell& cell, double sigma_px, doub
   return centre;
 }
 
+/// Whether both cameras miss the target in this frame. A stream for each target: one's fate tells nothing of
+/// another's, and the noise of the rest stays as it was.
+bool lost_to_both(const Cell& cell, const TargetTruth& target, int frame, std::uint64_t seed) {
+  if (cell.noise.target_loss <= 0) return false;
+  const int key = target.body * 1024 + target.target;
+  return stream_of(seed, frame, Side::Left, Purpose::TargetLoss, key).uniform() < cell.noise.target_loss;
+}
+
 void shuffle(std::vector<Centre>& centres, RandomStream& random) {
   for (std::size_t i = centres.size(); i > 1; --i) {
     std::swap(centres[i - 1], centres[random.below(static_cast<std::uint32_t>(i))]);
@@ -40,7 +48,8 @@ std::vector<Centre> simulate_centres(const Cell& cell, const FrameTruth& truth, 
     // Drawn for each target, seen or not, so that one target's fate does not change the others' noise.
     const Vec2 noise{random.normal(), random.normal()};  // braces: drawn in this order
     const bool missed = random.uniform() < options.dropout;
-    if (missed || !target.in_image || target.visible < kWhole || target.brightness < kBright) continue;
+    if (missed || lost_to_both(cell, target, frame, options.seed)) continue;
+    if (!target.in_image || target.visible < kWhole || target.brightness < kBright) continue;
     Ellipse seen = target.image;
     seen.centre += options.sigma_px * noise;
     centres.push_back(centre_at(seen, cell, options.sigma_px, target.brightness));

@@ -36,7 +36,7 @@ TEST(SimulateCentres, WithoutNoiseAreTheCentresOfTheConics) {
 
 TEST(SimulateCentres, HaveTheStatedSigma) {
   const Cell cell = test_cell();
-  const FrameTruth truth = truth_of(cell, 0.3);
+  const FrameTruth truth = truth_of(stage_of(cell), 0.3);
   double sum = 0;
   int count = 0;
   for (int frame = 0; frame < 2000; ++frame) {
@@ -55,7 +55,7 @@ TEST(SimulateCentres, HaveTheStatedSigma) {
 
 TEST(SimulateCentres, DropAndAddTheStatedShares) {
   const Cell cell = test_cell();
-  const FrameTruth truth = truth_of(cell, 0.3);
+  const FrameTruth truth = truth_of(stage_of(cell), 0.3);
   SimulationOptions options = centres_with(0.02);
   options.dropout = 0.2;
   std::size_t kept = 0;
@@ -68,6 +68,25 @@ TEST(SimulateCentres, DropAndAddTheStatedShares) {
   for (int frame = 0; frame < 2000; ++frame)
     kept += simulate_centres(cell, truth, Side::Left, frame, options).size();
   EXPECT_NEAR(static_cast<double>(kept) / 2000, 11, 4 * std::sqrt(5.0 / 2000));
+}
+
+TEST(SimulateCentres, LoseTheSameTargetsToBothCamerasAsOftenAsTheCellSays) {
+  Cell cell = test_cell();
+  const FrameTruth truth = truth_of(stage_of(cell), 0.3);
+  const auto whole = simulate_centres(cell, truth, Side::Left, 7, centres_with(0.02));
+  cell.noise.target_loss = 0.3;
+  std::size_t kept = 0;
+  for (int frame = 0; frame < 2000; ++frame) {
+    const auto left = simulate_centres(cell, truth, Side::Left, frame, centres_with(0.02));
+    EXPECT_EQ(left.size(), simulate_centres(cell, truth, Side::Right, frame, centres_with(0.02)).size());
+    kept += left.size();
+  }
+  EXPECT_NEAR(static_cast<double>(kept) / 12000, 0.7, 4 * std::sqrt(0.21 / 12000));
+  // Those that are kept have the noise that they had.
+  for (const Centre& centre : simulate_centres(cell, truth, Side::Left, 7, centres_with(0.02))) {
+    const auto same = [&](const Centre& other) { return other.px() == centre.px(); };
+    EXPECT_TRUE(std::any_of(whole.begin(), whole.end(), same));
+  }
 }
 
 TEST(Simulator, LosesFramesOfEachCameraByItself) {

@@ -35,13 +35,14 @@ Raster<float> background_of(const Cell& cell, const Lens& lens) {
 }
 
 /// The scenes of the exposure: as many as the fastest disc needs.
-std::vector<Scene> exposure_of(const Cell& cell, Side side, double time_s) {
+std::vector<Scene> exposure_of(const Stage& stage, Side side, double time_s) {
+  const Cell& cell = stage.cell;
   const Lens& lens = cell.rig.lens(side);
   const double exposure_s = cell.sensor.exposure_s;
-  std::vector<Scene> scenes = {scene_of(cell, side, time_s)};
+  std::vector<Scene> scenes = {scene_of(stage, side, time_s)};
   if (exposure_s <= 0) return scenes;
-  const Scene begin = scene_of(cell, side, time_s - 0.5 * exposure_s);
-  const Scene end = scene_of(cell, side, time_s + 0.5 * exposure_s);
+  const Scene begin = scene_of(stage, side, time_s - 0.5 * exposure_s);
+  const Scene end = scene_of(stage, side, time_s + 0.5 * exposure_s);
   double farthest_px = 0;
   for (std::size_t i = 0; i < begin.discs.size(); ++i) {
     const auto from = project(lens, begin.discs[i].place.centre);
@@ -52,7 +53,7 @@ std::vector<Scene> exposure_of(const Cell& cell, Side side, double time_s) {
   if (count == 1) return scenes;
   scenes.clear();
   for (int i = 0; i < count; ++i) {
-    scenes.push_back(scene_of(cell, side, time_s + exposure_s * ((i + 0.5) / count - 0.5)));
+    scenes.push_back(scene_of(stage, side, time_s + exposure_s * ((i + 0.5) / count - 0.5)));
   }
   return scenes;
 }
@@ -113,10 +114,11 @@ void vignette(Raster<float>& light, double strength) {
 
 }  // namespace
 
-Raster<float> render_light(const Cell& cell, Side side, double time_s, std::uint64_t seed, int frame) {
+Raster<float> render_light(const Stage& stage, Side side, double time_s, std::uint64_t seed, int frame) {
+  const Cell& cell = stage.cell;
   const Lens& lens = cell.rig.lens(side);
   Raster<float> light = background_of(cell, lens);
-  const std::vector<Scene> scenes = exposure_of(cell, side, time_s);
+  const std::vector<Scene> scenes = exposure_of(stage, side, time_s);
   paint_silhouettes(light, scenes[scenes.size() / 2], lens, cell.sensor.blur_px);
   for (std::size_t i = 0; i < scenes.front().discs.size(); ++i) {
     const double level = cell.light.target_level * scenes[scenes.size() / 2].discs[i].brightness;

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "asterism/camera/image.hpp"
-#include "asterism/cell/cell.hpp"
+#include "asterism/simulation/stage.hpp"
 
 namespace asterism {
 
@@ -12,7 +12,7 @@ namespace asterism {
 /// for each pixel, without noise: background with its gradient, obstacles' silhouettes, discs by exact
 /// area coverage with what hides them cut out (eighths of a pixel), averaged over the exposure, the lens's
 /// Gaussian blur, glints, vignetting. `seed` and `frame` place the glints.
-[[nodiscard]] Raster<float> render_light(const Cell& cell, Side side, double time_s, std::uint64_t seed,
+[[nodiscard]] Raster<float> render_light(const Stage& stage, Side side, double time_s, std::uint64_t seed,
                                          int frame);
 
 }  // namespace asterism

@@ -49,8 +49,8 @@ INSTANTIATE_TEST_SUITE_P(BlurPx, DrawnDiscs, testing::Values(0.55, 0.8, 2.5));
 
 /// Holds each disc's light against the conic that camera/ says it has.
 void check_against_conics(const Cell& cell, Side side, double time_s) {
-  const Raster<float> light = render_light(cell, side, time_s, 1, 0);
-  const Scene scene = scene_of(cell, side, time_s);
+  const Raster<float> light = render_light(stage_of(cell), side, time_s, 1, 0);
+  const Scene scene = scene_of(stage_of(cell), side, time_s);
   for (const SceneDisc& disc : scene.discs) {
     const auto conic =
         image_of_disc(cell.rig.lens(side), {disc.place.centre, disc.place.normal, disc.place.radius_mm});
@@ -79,8 +79,8 @@ TEST(RenderLight, DrawsDarkDiscsOnABrightGround) {
   cell.light.target_level = 0.1;
   cell.light.retro_falloff_deg = 0;
   cell.light.background_level = 0.6;
-  const FrameTruth truth = truth_of(cell, 0.2);
-  const Raster<float> light = render_light(cell, Side::Left, 0.2, 1, 0);
+  const FrameTruth truth = truth_of(stage_of(cell), 0.2);
+  const Raster<float> light = render_light(stage_of(cell), Side::Left, 0.2, 1, 0);
   for (const TargetTruth& target : truth.targets) {
     if (target.side != Side::Left) continue;
     const Spot spot = spot_around(light, target.image.centre, 14, 0.6);
@@ -92,10 +92,10 @@ TEST(RenderLight, DrawsDarkDiscsOnABrightGround) {
 TEST(RenderLight, BlursAMovingDiscAlongItsWayAndKeepsItsMiddle) {
   Cell cell = test_cell();
   cell.sensor.exposure_s = 0.02;
-  const FrameTruth truth = truth_of(cell, 0.3);
-  const Raster<float> light = render_light(cell, Side::Left, 0.3, 1, 0);
+  const FrameTruth truth = truth_of(stage_of(cell), 0.3);
+  const Raster<float> light = render_light(stage_of(cell), Side::Left, 0.3, 1, 0);
   cell.sensor.exposure_s = 0;
-  const Raster<float> sharp = render_light(cell, Side::Left, 0.3, 1, 0);
+  const Raster<float> sharp = render_light(stage_of(cell), Side::Left, 0.3, 1, 0);
   for (std::size_t i = 0; i < truth.targets.size(); ++i) {
     const TargetTruth& target = truth.targets[i];
     if (target.side != Side::Left) continue;
@@ -103,7 +103,7 @@ TEST(RenderLight, BlursAMovingDiscAlongItsWayAndKeepsItsMiddle) {
     Vec2 mean = Vec2::Zero();  // over the exposure, each instant by its light
     double weight = 0;
     for (int k = 0; k < 20; ++k) {
-      const Ellipse image = truth_of(cell, 0.3 + 0.02 * ((k + 0.5) / 20 - 0.5)).targets[i].image;
+      const Ellipse image = truth_of(stage_of(cell), 0.3 + 0.02 * ((k + 0.5) / 20 - 0.5)).targets[i].image;
       mean += image.semi_major * image.semi_minor * image.centre;
       weight += image.semi_major * image.semi_minor;
     }
@@ -125,8 +125,8 @@ TEST(RenderLight, CutsOutWhatAnObstacleHides) {
   const Vec3 along = pose_at(cell.movers[0].motion, 0.3) * Vec3(-200, 100, 600);
   cell.obstacles.push_back(
       {"rod", Capsule{0.6 * along + Vec3(0, -300, 0), 0.6 * along + Vec3(0, 300, 0), 2}, "", {}, {}});
-  const FrameTruth truth = truth_of(cell, 0.3);
-  const Raster<float> light = render_light(cell, Side::Left, 0.3, 1, 0);
+  const FrameTruth truth = truth_of(stage_of(cell), 0.3);
+  const Raster<float> light = render_light(stage_of(cell), Side::Left, 0.3, 1, 0);
   int partly = 0;
   for (const TargetTruth& target : truth.targets) {
     if (target.side != Side::Left) continue;
@@ -144,7 +144,7 @@ TEST(RenderLight, PaintsAnObstacleWithItsOwnLevelAndASoftEdge) {
   cell.movers[0].body.targets.resize(1);
   const Box box{{400, 300, 10}};
   cell.obstacles.push_back({"plate", box, "", {Quaternion::Identity(), {0, 0, 1600}}, 0.2});
-  const Raster<float> light = render_light(cell, Side::Left, 0, 1, 0);
+  const Raster<float> light = render_light(stage_of(cell), Side::Left, 0, 1, 0);
   const double near_z = 1595;  // the face towards the camera is the outline
   const double edge = 511.5 + 1600 * 200 / near_z;
   EXPECT_NEAR(light.at(511, 383), 0.2, 1e-6);
@@ -159,12 +159,12 @@ TEST(RenderLight, TiltsTheBackgroundAndDarkensTheCorners) {
   cell.movers[0].motion = at_rest({Quaternion::Identity(), {0, 0, -2000}});
   cell.light.background_level = 0.2;
   cell.light.gradient_x = 0.5;
-  Raster<float> light = render_light(cell, Side::Left, 0, 1, 0);
+  Raster<float> light = render_light(stage_of(cell), Side::Left, 0, 1, 0);
   EXPECT_NEAR(light.at(0, 300), 0.2 * 0.75, 1e-4);
   EXPECT_NEAR(light.at(1023, 300), 0.2 * 1.25, 1e-4);
   cell.light.gradient_x = 0;
   cell.light.vignetting = 0.4;
-  light = render_light(cell, Side::Left, 0, 1, 0);
+  light = render_light(stage_of(cell), Side::Left, 0, 1, 0);
   EXPECT_NEAR(light.at(0, 0), 0.2 * 0.6, 1e-6);
   EXPECT_NEAR(light.at(512, 384), 0.2, 1e-4);
 }
@@ -173,7 +173,7 @@ TEST(RenderLight, PutsInAboutAsManyGlintsAsAsked) {
   Cell cell = test_cell();
   cell.movers[0].motion = at_rest({Quaternion::Identity(), {0, 0, -2000}});
   cell.light.glints = 12;
-  const Raster<float> light = render_light(cell, Side::Left, 0, 1, 0);
+  const Raster<float> light = render_light(stage_of(cell), Side::Left, 0, 1, 0);
   std::set<int> lit;  // tiles of 64 × 64 px; a glint may reach into a neighbour
   for (int y = 0; y < light.height; ++y) {
     for (int x = 0; x < light.width; ++x) {

@@ -51,16 +51,20 @@ int count_visible(const Hiding& hiding, const DiscPlace& disc, const Lens& lens,
 
 }  // namespace
 
-Scene scene_of(const Cell& cell, Side side, double time_s) {
+Scene scene_of(const Stage& stage, Side side, double time_s) {
+  const Cell& cell = stage.cell;
   const RigidMotion camera_from_tracker = cell.rig.camera_from_tracker(side);
   Scene scene;
   std::vector<RigidMotion> camera_from_body;
   for (const Mover& mover : cell.movers) {
     camera_from_body.push_back(camera_from_tracker * pose_at(mover.motion, time_s));
-    const int body = static_cast<int>(camera_from_body.size()) - 1;
+    const std::size_t body = camera_from_body.size() - 1;
     for (std::size_t i = 0; i < mover.body.targets.size(); ++i) {
-      SceneDisc disc = disc_of(mover.body.targets[i], camera_from_body.back(), cell.light);
-      disc.body = body;
+      const StageTarget now = target_at(stage, body, i, time_s);
+      SceneDisc disc = disc_of(now.target, camera_from_body.back(), cell.light);
+      disc.there = now.there;
+      if (!now.there) disc.brightness = 0;
+      disc.body = static_cast<int>(body);
       disc.target = static_cast<int>(i);
       scene.discs.push_back(disc);
     }
@@ -77,6 +81,11 @@ Scene scene_of(const Cell& cell, Side side, double time_s) {
                             {camera_from_shape * ball.centre, ball.radius_mm},
                             obstacle.level});
   }
+  for (const StageSolid& solid : stage.solids) {
+    const RigidMotion& camera_from_carrier =
+        solid.carrier < 0 ? camera_from_tracker : camera_from_body[static_cast<std::size_t>(solid.carrier)];
+    scene.meshes.push_back({&solid, camera_from_carrier.inverse()});
+  }
   return scene;
 }
 
@@ -87,8 +96,15 @@ Hiding::Hiding(const Scene& scene, std::size_t index) {
     const double apart = segment_distance(disc.place.centre, camera, solid.ball.centre, solid.ball.centre);
     if (apart <= disc.place.radius_mm + solid.ball.radius_mm) solids_.push_back(&solid);
   }
+  for (const SceneMesh& mesh : scene.meshes) {
+    const RigidMotion& there = mesh.carrier_from_camera;
+    if (!clear_of(mesh.solid->extent, there * disc.place.centre, there.rotation * disc.place.normal,
+                  disc.place.radius_mm, there.translation))
+      meshes_.push_back(&mesh);
+  }
   for (const SceneDisc& other : scene.discs) {
-    if (other.body == disc.body || other.place.centre.norm() >= disc.place.centre.norm()) continue;
+    if (!other.there || other.body == disc.body || other.place.centre.norm() >= disc.place.centre.norm())
+      continue;
     const double apart = segment_distance(disc.place.centre, camera, other.place.centre, other.place.centre);
     if (apart <= disc.place.radius_mm + other.place.radius_mm) plates_.push_back(&other.place);
   }
@@ -98,6 +114,10 @@ bool Hiding::hides(const Vec3& on_disc) const {
   const Vec3 start = on_disc * (1.0 - kProud_mm / on_disc.norm());
   for (const SceneSolid* solid : solids_) {
     if (blocks(solid->shape, solid->shape_from_camera * start, solid->shape_from_camera.translation))
+      return true;
+  }
+  for (const SceneMesh* mesh : meshes_) {
+    if (mesh->solid->tree.blocked(mesh->carrier_from_camera * start, mesh->carrier_from_camera.translation))
       return true;
   }
   for (const DiscPlace* plate : plates_) {

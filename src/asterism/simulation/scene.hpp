@@ -6,6 +6,7 @@
 #include "asterism/cell/cell.hpp"
 #include "asterism/simulation/outline.hpp"
 #include "asterism/simulation/rays.hpp"
+#include "asterism/simulation/stage.hpp"
 
 namespace asterism {
 
@@ -14,7 +15,8 @@ struct SceneDisc {
   int body = 0, target = 0;
   DiscPlace place;
   double incidence_rad = 0;  // between its normal and the way to the camera
-  double brightness = 0;     // relative to one seen square on; 0 from behind
+  double brightness = 0;     // relative to one seen square on; 0 from behind, or when it is not there
+  bool there = true;         // false: it has fallen off
 };
 
 struct SceneSolid {
@@ -24,31 +26,39 @@ struct SceneSolid {
   std::optional<double> level;
 };
 
-/// The cell before one camera at one moment.
+/// A mesh: the stage's own, seen from here.
+struct SceneMesh {
+  const StageSolid* solid;
+  RigidMotion carrier_from_camera;
+};
+
+/// The cell before one camera at one moment; not to outlive its stage.
 struct Scene {
   std::vector<SceneDisc> discs;
   std::vector<SceneSolid> solids;
+  std::vector<SceneMesh> meshes;
 };
 
 /// A target without a normal faces each camera; one without a diameter is a point (radius 0).
-[[nodiscard]] Scene scene_of(const Cell& cell, Side side, double time_s);
+[[nodiscard]] Scene scene_of(const Stage& stage, Side side, double time_s);
 
-/// The solids and foreign targets that may hide part of disc `index`: the others' balls are too far from
-/// the way to the camera.
+/// The solids, meshes and foreign targets that may hide part of disc `index`: of the others a ball or a plane
+/// tells that they are not in the way to the camera.
 class Hiding {
  public:
   Hiding(const Scene& scene, std::size_t index);
-  [[nodiscard]] bool possible() const { return !solids_.empty() || !plates_.empty(); }
+  [[nodiscard]] bool possible() const { return !solids_.empty() || !meshes_.empty() || !plates_.empty(); }
   /// Whether a point of the disc is hidden from the camera.
   [[nodiscard]] bool hides(const Vec3& on_disc) const;
 
  private:
   std::vector<const SceneSolid*> solids_;
+  std::vector<const SceneMesh*> meshes_;
   std::vector<const DiscPlace*> plates_;
 };
 
-/// Share of the disc that neither solids, other bodies' targets nor the image's edge keep from the camera;
-/// 0 when it faces away. Told by 250 points spread evenly over it, 4000 when they differ.
+/// Share of the disc that neither solids, meshes, other bodies' targets nor the image's edge keep from the
+/// camera; 0 when it faces away. Told by 250 points spread evenly over it, 4000 when they differ.
 [[nodiscard]] double visible_share(const Scene& scene, std::size_t index, const Lens& lens);
 
 }  // namespace asterism

@@ -23,38 +23,39 @@ void describe(SimulationOptions& options, OptionVisitor& visit) {
 }
 
 Simulator::Simulator(Cell cell, const SimulationOptions& options)
-    : cell_(std::move(cell)), options_(options) {
-  check_cell(cell_, cell_.name);
+    : stage_(stage_of(std::move(cell))), options_(options) {
   if (options_.level == SimulationLevel::Centres) return;
-  for (const Mover& mover : cell_.movers) {
+  const Cell& made = stage_.cell;
+  for (const Mover& mover : made.movers) {
     for (const Target& target : mover.body.targets) {
       if (target.diameter_mm) continue;
       throw InputError(
-          cell_.name,
+          made.name,
           fmt::format("target `{}` of body `{}` has no diameter_mm; without it no image can be drawn",
                       target.id, mover.body.name));
     }
   }
-  left_gain_ = fixed_pattern(cell_.sensor, cell_.rig.left, Side::Left, options_.seed);
-  right_gain_ = fixed_pattern(cell_.sensor, cell_.rig.right, Side::Right, options_.seed);
+  left_gain_ = fixed_pattern(made.sensor, made.rig.left, Side::Left, options_.seed);
+  right_gain_ = fixed_pattern(made.sensor, made.rig.right, Side::Right, options_.seed);
 }
 
 bool Simulator::loses(int number, Side side) const {
-  return stream_of(options_.seed, number, side, Purpose::LostFrames).uniform() < cell_.sensor.lost_frames;
+  return stream_of(options_.seed, number, side, Purpose::LostFrames).uniform() <
+         stage_.cell.sensor.lost_frames;
 }
 
 Image Simulator::picture(int number, Side side) const {
-  const double time_s = number / cell_.timing.rate_hz;
-  const Raster<float> light = render_light(cell_, side, time_s, options_.seed, number);
-  return expose(light, side == Side::Left ? left_gain_ : right_gain_, cell_.sensor, side, options_.seed,
+  const double time_s = number / stage_.cell.timing.rate_hz;
+  const Raster<float> light = render_light(stage_, side, time_s, options_.seed, number);
+  return expose(light, side == Side::Left ? left_gain_ : right_gain_, stage_.cell.sensor, side, options_.seed,
                 number);
 }
 
 SimulatedFrame Simulator::frame(int number) const {
   SimulatedFrame made;
   made.frame = number;
-  made.time_s = number / cell_.timing.rate_hz;
-  made.truth = truth_of(cell_, made.time_s);
+  made.time_s = number / stage_.cell.timing.rate_hz;
+  made.truth = truth_of(stage_, made.time_s);
   made.image.frame = made.centres.frame = number;
   made.image.time_s = made.centres.time_s = made.time_s;
   for (const Side side : {Side::Left, Side::Right}) {
@@ -63,7 +64,7 @@ SimulatedFrame Simulator::frame(int number) const {
       (side == Side::Left ? made.image.left : made.image.right) = picture(number, side);
     } else {
       (side == Side::Left ? made.centres.left : made.centres.right) =
-          simulate_centres(cell_, made.truth, side, number, options_);
+          simulate_centres(stage_.cell, made.truth, side, number, options_);
     }
   }
   return made;

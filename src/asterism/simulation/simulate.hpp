@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "asterism/cell/cell.hpp"
 #include "asterism/core/options.hpp"
 #include "asterism/measurement/frame.hpp"
+#include "asterism/simulation/stage.hpp"
 
 namespace asterism {
 
@@ -17,7 +17,8 @@ struct SimulationOptions {
   std::uint64_t seed = 1;
   // At the level of centres:
   double sigma_px = 0.02;  // of each centre, along each axis
-  double dropout = 0;      // share of visible targets each camera misses at random
+  double dropout = 0;      // share of visible targets each camera misses at random; the cell's own
+                           // noise.target_loss takes targets from both cameras at once
   double clutter = 0;      // mean number of false centres an image
 };
 void describe(SimulationOptions& options, OptionVisitor& visit);
@@ -31,9 +32,9 @@ struct TargetTruth {
   double incidence_rad = 0;
   double brightness = 0;          // relative to a target seen square on
   bool in_image = false;          // the whole disc
-  double visible = 0;             // share of it not hidden and inside the image
+  double visible = 0;             // share of it not hidden and inside the image; 0 when it has fallen off
   double blur_px = 0;             // way of its centre during the exposure
-  Vec3 in_camera = Vec3::Zero();  // mm
+  Vec3 in_camera = Vec3::Zero();  // mm; where it truly is, knocked or not
 };
 
 struct FrameTruth {
@@ -54,16 +55,16 @@ struct SimulatedFrame {
 /// frames may be made in any order and on any number of threads.
 class Simulator {
  public:
-  /// Throws InputError when the cell is not sound (check_cell) or, for images, a target has no diameter.
+  /// Throws InputError when the cell is not sound (stage_of) or, for images, a target has no diameter.
   Simulator(Cell cell, const SimulationOptions& options);
   [[nodiscard]] SimulatedFrame frame(int number) const;
-  [[nodiscard]] const Cell& cell() const { return cell_; }
+  [[nodiscard]] const Cell& cell() const { return stage_.cell; }
 
  private:
   [[nodiscard]] bool loses(int number, Side side) const;
   [[nodiscard]] Image picture(int number, Side side) const;
 
-  Cell cell_;
+  Stage stage_;
   SimulationOptions options_;
   Raster<float> left_gain_, right_gain_;  // fixed patterns; empty at the level of centres
 };

@@ -9,7 +9,15 @@
 namespace asterism {
 
 /// What a stream of random numbers is drawn for; streams of different purposes are independent.
-enum class Purpose : std::uint32_t { Centres = 0x51, LostFrames, Glints, FixedPattern, PixelNoise, ReadOut };
+enum class Purpose : std::uint32_t {
+  Centres = 0x51,
+  LostFrames,
+  Glints,
+  FixedPattern,
+  PixelNoise,
+  ReadOut,
+  TargetLoss
+};
 
 /// The stream of one frame, camera and image row (0 where rows do not matter).
 [[nodiscard]] inline RandomStream stream_of(std::uint64_t seed, int frame, Side side, Purpose purpose,

@@ -16,9 +16,11 @@ bool inside(const Lens& lens, const Rim& rim) {
 }
 
 /// How far the image of the target's centre goes during the exposure.
-double way_px(const Cell& cell, const TargetTruth& truth, double time_s) {
+double way_px(const Stage& stage, const TargetTruth& truth, double time_s) {
+  const Cell& cell = stage.cell;
   const auto body = static_cast<std::size_t>(truth.body);
-  const Vec3& position = cell.movers[body].body.targets[static_cast<std::size_t>(truth.target)].position;
+  const Vec3 position =
+      target_at(stage, body, static_cast<std::size_t>(truth.target), time_s).target.position;
   const auto at = [&](double t) {
     const RigidMotion camera_from_body =
         cell.rig.camera_from_tracker(truth.side) * pose_at(cell.movers[body].motion, t);
@@ -29,9 +31,9 @@ double way_px(const Cell& cell, const TargetTruth& truth, double time_s) {
   return begin && end ? (end->px - begin->px).norm() : 0.0;
 }
 
-void add_targets(const Cell& cell, Side side, double time_s, FrameTruth& truth) {
-  const Lens& lens = cell.rig.lens(side);
-  const Scene scene = scene_of(cell, side, time_s);
+void add_targets(const Stage& stage, Side side, double time_s, FrameTruth& truth) {
+  const Lens& lens = stage.cell.rig.lens(side);
+  const Scene scene = scene_of(stage, side, time_s);
   for (std::size_t i = 0; i < scene.discs.size(); ++i) {
     const SceneDisc& disc = scene.discs[i];
     const auto centre = project(lens, disc.place.centre);
@@ -47,7 +49,7 @@ void add_targets(const Cell& cell, Side side, double time_s, FrameTruth& truth) 
     target.brightness = disc.brightness;
     target.in_image = inside(lens, rim);
     target.visible = visible_share(scene, i, lens);
-    target.blur_px = way_px(cell, target, time_s);
+    target.blur_px = way_px(stage, target, time_s);
     target.in_camera = disc.place.centre;
     truth.targets.push_back(target);
   }
@@ -55,11 +57,12 @@ void add_targets(const Cell& cell, Side side, double time_s, FrameTruth& truth) 
 
 }  // namespace
 
-FrameTruth truth_of(const Cell& cell, double time_s) {
+FrameTruth truth_of(const Stage& stage, double time_s) {
   FrameTruth truth;
-  for (const Mover& mover : cell.movers) truth.tracker_from_body.push_back(pose_at(mover.motion, time_s));
-  add_targets(cell, Side::Left, time_s, truth);
-  add_targets(cell, Side::Right, time_s, truth);
+  for (const Mover& mover : stage.cell.movers)
+    truth.tracker_from_body.push_back(pose_at(mover.motion, time_s));
+  add_targets(stage, Side::Left, time_s, truth);
+  add_targets(stage, Side::Right, time_s, truth);
   return truth;
 }
 

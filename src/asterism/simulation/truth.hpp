@@ -6,6 +6,6 @@
 namespace asterism {
 
 /// What is true of a cell at a moment; targets of the exposure that this moment is the middle of.
-[[nodiscard]] FrameTruth truth_of(const Cell& cell, double time_s);
+[[nodiscard]] FrameTruth truth_of(const Stage& stage, double time_s);
 
 }  // namespace asterism
