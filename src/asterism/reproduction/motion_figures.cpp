@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "asterism/reproduction/motion_figures.hpp"
 
-#include "asterism/reproduction/papers_cell.hpp"
+#include "asterism/reproduction/chain_sight.hpp"
+#include "asterism/reproduction/frame_placing.hpp"
 #include "asterism/reproduction/plot.hpp"
 
 namespace asterism {
 
 std::vector<Exhibit> motion_exhibits() {
-  const std::vector<SightOfRing> sights = watch_ring({}, {});
+  const std::vector<SightOfRing> sights = watch_chain({}, {.acceptance_rad = kChainAcceptanceRad});
   std::vector<Vec2> visible, coverage, turn_x, turn_y;
   for (const SightOfRing& sight : sights) {
     if (!visible.empty()) visible.emplace_back(sight.time_s, visible.back().y());  // a step, not a slope
@@ -29,11 +30,14 @@ std::vector<Exhibit> motion_exhibits() {
   const std::string html = "<div class=\"row\"><figure>" + seen.str("Targets seen over time") +
                            "</figure><figure>" + field.str("Coverage coefficient over time") +
                            "</figure><figure>" + motion.str("Motion of the platform") + "</figure></div>";
-  return {{"F20", "Figure 20. Targets seen and field of view over the motion",
-           "A model that gives what the text tells of the figure: tracker 2 m away, 60° up, 45° aside, cone "
-           "±25°; eight targets on "
-           "a ring of 300 mm, tilted outward by 20°, seen up to 60°. The paper gives none of these.",
-           html}};
+  return {
+      frame_placing(),
+      {"F20", "Figure 20. Targets seen and field of view over the motion",
+       "Our own visibility on a model of the cell that gives what the text tells of the figure: two cameras "
+       "1 m apart, 2 m away, 60° up, 45° aside; eight targets on a ring of 300 mm, tilted outward by 20°, "
+       "counted when both cameras see them up to 65° and the casing does not stand in the way. The paper "
+       "gives none of these.",
+       html}};
 }
 
 }  // namespace asterism

@@ -7,7 +7,7 @@
 
 namespace asterism {
 
-/// Figure 20.
+/// Figures 11 and 20.
 [[nodiscard]] std::vector<Exhibit> motion_exhibits();
 
 }  // namespace asterism
