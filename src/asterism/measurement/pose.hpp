@@ -35,4 +35,10 @@ struct BodyPose {
   double rms_px = 0;                     // of their residuals
 };
 
+/// One body's pose at one moment of a run.
+struct TimedPose {
+  double time_s = 0;
+  BodyPose pose;
+};
+
 }  // namespace asterism
