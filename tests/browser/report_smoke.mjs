@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// node report_smoke.mjs PAGE: opens the built report page from disk, with a small recording and with a few
-// layouts, as a reader would, and asks whether it shows what it should. Ends with 77 (skipped) where there is no Chromium.
+// node report_smoke.mjs PAGE: opens the built report page from disk, with a small recording, with a few layouts and
+// with a cell in motion, as a reader would, and asks whether it shows what it should. Ends with 77 (skipped) where there is no Chromium.
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
+import { cell, moved } from './cell_fixture.mjs';
 import { findChromium, openBrowser } from './chromium.mjs';
 import { layouts } from './layout_fixture.mjs';
 import { pageWith } from './page_with.mjs';
@@ -116,6 +117,77 @@ async function lookAtLayouts(browser, file) {
   expect((await chosen()).startsWith('12 targets'), 'what is given up leads to the layout that has it');
 }
 
+/// How many points of the 3-D view, names and colour bar upon it have about this colour.
+const inColour = (r, g, b) => `(() => [...document.querySelectorAll('.scene canvas')].reduce((sum, c) => { const t = document.createElement('canvas'); t.width = c.width; t.height = c.height;
+  const x = t.getContext('2d'); x.drawImage(c, 0, 0); const d = x.getImageData(0, 0, t.width, t.height).data; let n = 0;
+  for (let i = 0; i < d.length; i += 4) if (d[i + 3] > 200 && Math.abs(d[i] - ${r}) + Math.abs(d[i + 1] - ${g}) + Math.abs(d[i + 2] - ${b}) < 24) ++n; return sum + n; }, 0))()`;
+const kYellow = inColour(253, 231, 37);  // the bright end of the error map's colours
+const kRay = inColour(176, 137, 0);
+
+async function lookAtCell(browser, file, data) {
+  const { send, evaluate } = browser;
+  const until = await open(browser, file);
+  const plots = 4;
+  expect(await until(`document.querySelectorAll('.u-over').length === ${plots}`), 'the four plots over the motion are drawn');
+  expect(await until(`${kInk} > 5000`), 'the 3-D view draws the cell');
+  expect(await evaluate('document.title') === 'Engine casing on the tilting platform – asterism', 'the title is that of the cell');
+  expect(await evaluate(`document.body.innerText.includes('</script><b>backlight</b>')`), 'names stay text');
+
+  const readout = () => evaluate(`document.querySelector('.readout tbody tr').innerText`);
+  const picture = () => evaluate(`(() => { const c = document.querySelector('.scene canvas'); return c.toDataURL(); })()`);
+  const [words, drawn] = [await readout(), await picture()];
+  const slide = (to) => evaluate(`(() => { const s = document.querySelector('.timeline input'); s.value = ${to}; s.dispatchEvent(new Event('input', { bubbles: true })); })()`);
+  await slide(12);
+  expect((await evaluate(`document.querySelector('.where').textContent`)).startsWith('frame 12 '), 'the slider goes to its frame');
+  expect(await readout() !== words, 'the slider moves the platform: other numbers');
+  await new Promise((resolve) => setTimeout(resolve, 200));
+  expect(await picture() !== drawn, 'the slider moves the platform: another picture');
+  const blocked = data.time_s.findIndex((_, i) => data.bodies[0].sight.some(([left]) => left[i] === 'a'));
+  await slide(blocked);
+  expect(await evaluate(`document.querySelector('.sight-words').textContent.includes('hidden by casing')`), 'what hides a target is said in words');
+
+  const toggle = (layer) => evaluate(`[...document.querySelectorAll('.layers label')].find((l) => l.textContent === '${layer}').firstChild.click()`);
+  const press = (text) => evaluate(`[...document.querySelectorAll('button')].find((b) => b.textContent === '${text}').click()`);
+  const rays = await evaluate(kRay);
+  await toggle('sight lines');
+  expect(await until(`${kRay} < ${rays / 4}`), `sight lines can be switched off (${rays} points of their colour, then ${await evaluate(kRay)})`);
+  await toggle('sight lines');
+  const yellow = await evaluate(kYellow);
+  await press('error map');
+  expect(await until(`${kYellow} > ${yellow + 50}`), 'the error map and its colour bar are drawn');
+  expect(await evaluate(`getComputedStyle(document.querySelector('.map-words')).display`) !== 'none', 'and explained');
+  await press('shaded');
+
+  await measureInCell(browser, data, until, press);
+  expect(await evaluate(`document.querySelectorAll('.heat rect').length`) > 2 * 13 * 13, 'the heat maps are drawn');
+  expect(await evaluate(`document.querySelectorAll('.chart-figure svg circle').length`) > 20, 'the charts are drawn');
+  expect(await evaluate(`document.querySelectorAll('.generic tbody tr').length`) === 10, 'the tables have their rows');
+  expect(await evaluate(`document.querySelectorAll('.generic tr.bad .verdict').length`) === 1, 'a verdict is marked');
+}
+
+/// Two clicks where the view shows two targets that nothing hides: their distance is known.
+async function measureInCell({ send, evaluate }, data, until, press) {
+  await press('cell');
+  await press('Measure');
+  const names = ['P9', 'P5'];
+  const places = names.map((name) => data.bodies[0].targets.find((target) => target.id === name).position_mm);
+  const frame = await evaluate(`Number(document.querySelector('.timeline input').value)`);
+  for (const place of places) {
+    await new Promise((resolve) => setTimeout(resolve, 100));
+    const at = await evaluate(`(() => { const c = document.querySelector('.scene canvas'); const r = c.getBoundingClientRect(); const [x, y] = c.project(${JSON.stringify(moved(data.bodies[0].pose[frame], place))}); return [r.left + x, r.top + y]; })()`);
+    await send('Input.dispatchMouseEvent', { type: 'mousePressed', x: at[0], y: at[1], button: 'left', clickCount: 1 });
+    await send('Input.dispatchMouseEvent', { type: 'mouseReleased', x: at[0], y: at[1], button: 'left', clickCount: 1 });
+  }
+  const true_mm = Math.hypot(...places[0].map((v, k) => v - places[1][k]));
+  expect(await until(`document.querySelector('.measured .length') !== null`), 'two clicks measure');
+  const told = await evaluate(`document.querySelector('.measured .length')?.textContent ?? ''`);
+  // The clicks snap to the targets' centres: what is told is exact to the last digit that is written.
+  expect(Math.abs(parseFloat(told) - true_mm) < 0.006, `the distance is ${true_mm.toFixed(2)} mm, not ${told}`);
+  expect(await evaluate(`document.querySelectorAll('.measured tbody tr').length`) === 2, 'along the axes of the tracker and of the part');
+  await evaluate(`document.dispatchEvent(new KeyboardEvent('keydown', { key: 'Escape', bubbles: true }))`);
+  expect(await evaluate(`document.querySelector('.measured .length')`) === null, 'Esc forgets what was measured');
+}
+
 const program = findChromium();
 if (!program) {
   console.log('skipped: no Chromium here (Debian: apt-get install chromium)');
@@ -131,6 +203,8 @@ const browser = await openBrowser(program);
 try {
   await lookAtRecording(browser, fileWith('report.html', recording()));
   await lookAtLayouts(browser, fileWith('layouts.html', layouts()));
+  const small = cell({ frames: 40, sides: 24, longest: 200 });
+  await lookAtCell(browser, fileWith('cell.html', small), small);
   browser.problems.forEach((problem) => failures.push(problem));
 } finally {
   await browser.close();

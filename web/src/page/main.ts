@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 import 'uplot/dist/uPlot.min.css';
 import './style.css';
-import { parseReport } from '../data/parse';
+import { parseReport, type Report } from '../data/parse';
 import { h } from '../dom';
-import { showPage } from './frame';
+import { cellPage } from './cell_page';
+import { showPage, type PageContent } from './frame';
 import { layoutPage } from './layout_page';
 import { trackingPage } from './tracking_page';
+
+function contentOf(report: Report): PageContent {
+  switch (report.schema) {
+    case 'asterism-tracking-report/1': return trackingPage(report);
+    case 'asterism-layout-report/1': return layoutPage(report);
+    case 'asterism-cell-report/1': return cellPage(report);
+  }
+}
 
 function start(): void {
   const root = document.getElementById('report')!;
   try {
     const report = parseReport(document.getElementById('report-data')?.textContent ?? 'null');
-    const content = report.schema === 'asterism-layout-report/1' ? layoutPage(report) : trackingPage(report);
+    const content = contentOf(report);
     showPage(report.title, report.subtitle, content, root);
   } catch (problem) {
     root.append(h('p', { class: 'problem', role: 'alert' }, `The report cannot be shown: ${problem instanceof Error ? problem.message : String(problem)}`));

@@ -9,7 +9,7 @@ import type { Selection, Shared } from '../data/selection';
 import type { Status } from '../data/status';
 import { h } from '../dom';
 import { bodyColour } from '../plots/figures';
-import { statusBadge } from '../plots/strip';
+import { statusBadge } from '../plots/status_strip';
 
 const kHeads = ['Body', 'Status', 'Targets', 'RMS (px)', 'x', 'y', 'z (mm)', 'rx', 'ry', 'rz (deg)'];
 

@@ -2,11 +2,11 @@
 import { everythingAsCsv } from '../data/csv';
 import { count, times } from '../data/format';
 import type { TrackingReport } from '../data/report';
-import type { Component, Shared, Source } from '../data/selection';
+import { axisOf, type Component, type Shared, type Source } from '../data/selection';
 import { choice, download, h } from '../dom';
 import { figuresOf } from '../plots/figures';
 import { plotView, type PlotView } from '../plots/plot';
-import { statusStrip } from '../plots/strip';
+import { statusStrip, type StatusRow } from '../plots/status_strip';
 import { scalesOf, type Scales } from '../scene/scales';
 import { sceneView, type Layer, type SceneView, type ViewPoint } from '../scene/scene';
 import { readout } from './readout';
@@ -60,7 +60,10 @@ function sceneKey(scales: Scales): HTMLElement {
 }
 
 function plotPanel(report: TrackingReport, shared: Shared): { element: HTMLElement; refresh: () => void } {
-  const strip = statusStrip(report, shared);
+  const strip = statusStrip('Status by body', report.bodies.flatMap((body): StatusRow[] => [
+    { label: body.name, letters: body.status },
+    ...(body.filtered_status && body.filtered_status !== body.status ? [{ label: 'filtered', letters: body.filtered_status }] : []),
+  ]), axisOf(report.frames).values, shared);
   const holder = h('div', { class: 'figures' });
   let views: PlotView[] = [];
   const build = () => {

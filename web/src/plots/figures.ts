@@ -22,6 +22,12 @@ export interface Band {
   colour: string;
 }
 
+/// A level with its name: what is allowed, what is needed.
+export interface Limit {
+  label: string;
+  value: number;
+}
+
 /// What one plot shows; drawn on screen, as SVG and as CSV from the same data.
 export interface Figure {
   id: string;
@@ -34,6 +40,8 @@ export interface Figure {
   fromZero: boolean;
   digits: number;
   group?: string;  // figures of one group share their cursor
+  limits?: Limit[];
+  log?: boolean;   // the values' axis; what is not above zero is left out
 }
 
 const kComponentWords: Record<Component, string> = { size: 'size', x: 'along x', y: 'along y', z: 'along z' };
@@ -115,7 +123,7 @@ function pathFigures(body: BodyTrack, axis: Figure['axis']): Figure[] {
 }
 
 export function valueAt(trace: Trace, frame: number, digits: number): string {
-  const value = trace.values[frame];
+  const value = trace.values[frame] ?? null;
   return digits === 0 ? (value === null ? '–' : String(value)) : significant(value, digits);
 }
 

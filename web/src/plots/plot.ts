@@ -2,9 +2,10 @@
 import uPlot from 'uplot';
 import { colour, h } from '../dom';
 import { nearestIndex, type Place, type Shared } from '../data/selection';
-import { valueAt, type Figure } from './figures';
+import { valueAt, type Figure, type Limit } from './figures';
 import { exportButtons } from './export';
-import { rangeOf } from './ranges';
+import { logRangeOf, rangeOf } from './ranges';
+import { logTicks } from './svg';
 
 const kAxisWidth = 62;  // the same for all, so that plots and strip stand under one another
 export const kPlotLeft = kAxisWidth;
@@ -74,6 +75,8 @@ function dataOf(figure: Figure): uPlot.AlignedData {
   return [figure.axis.values, ...figure.traces.map((trace) => trace.values), ...figure.bands.flatMap((band) => [band.high, band.low])];
 }
 
+const kLogTicks: Partial<uPlot.Axis> = { splits: (_plot, _axis, low, high) => logTicks(low, high), filter: (_plot, splits) => splits };
+
 function optionsOf<S extends Place>(figure: Figure, shared: Shared<S>): uPlot.Options {
   const all = figure.axis.values;
   const first = figure.traces.length + 1;
@@ -89,10 +92,10 @@ function optionsOf<S extends Place>(figure: Figure, shared: Shared<S>): uPlot.Op
       sync: { key: figure.group ?? 'frames' },
     },
     select: { show: true, left: 0, top: 0, width: 0, height: 0 },
-    scales: { x: { time: false }, y: { range: (_, low, high) => rangeOf(low, high, figure.fromZero) } },
+    scales: { x: { time: false }, y: scaleOf(figure) },
     axes: [
       { ...axis, label: figure.axis.label, labelSize: 16, labelGap: 0, size: 26, gap: 3, values: (_, ticks) => ticks.map(tickText) },
-      { ...axis, label: figure.unit, labelSize: 16, labelGap: 0, size: kAxisWidth - 16, gap: 4, ...(figure.digits === 0 ? { incrs: [1, 2, 5, 10, 20, 50] } : {}), values: (_, ticks) => ticks.map(tickText) },
+      { ...axis, label: figure.unit, labelSize: 16, labelGap: 0, size: kAxisWidth - 16, gap: 4, ...(figure.digits === 0 ? { incrs: [1, 2, 5, 10, 20, 50] } : {}), ...(figure.log ? kLogTicks : {}), values: (_, ticks) => ticks.map(tickText) },
     ],
     series: [
       {},
@@ -120,9 +123,46 @@ function optionsOf<S extends Place>(figure: Figure, shared: Shared<S>): uPlot.Op
         shared.set({ range: [plot.posToVal(plot.select.left, 'x'), plot.posToVal(plot.select.left + plot.select.width, 'x')] } as Partial<S>);
         plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
       }],
+      draw: [(plot) => drawLimits(plot, figure.limits ?? [])],
       ready: [(plot) => plot.over.addEventListener('dblclick', () => shared.set({ range: null } as Partial<S>))],
     },
   };
+}
+
+function scaleOf(figure: Figure): uPlot.Scale {
+  const limits = (figure.limits ?? []).map((limit) => limit.value);
+  const wide = (low: number | null, high: number | null): [number, number] => [Math.min(low ?? Infinity, ...limits), Math.max(high ?? -Infinity, ...limits)];
+  if (figure.log) return { distr: 3, range: (_, low, high) => logRangeOf(...wide(low, high)) };
+  return { range: (_, low, high) => rangeOf(...wide(low, high), figure.fromZero) };
+}
+
+/// Dashed lines across the plot, each with its name above it at the right.
+function drawLimits(plot: uPlot, limits: Limit[]): void {
+  const { ctx, bbox } = plot;
+  const ratio = window.devicePixelRatio || 1;
+  ctx.save();
+  ctx.font = `${10.5 * ratio}px system-ui, sans-serif`;
+  ctx.textAlign = 'right';
+  ctx.lineWidth = ratio;
+  ctx.setLineDash([6 * ratio, 4 * ratio]);
+  for (const { label, value } of limits) {
+    const y = plot.valToPos(value, 'y', true);
+    if (y < bbox.top || y > bbox.top + bbox.height) continue;
+    ctx.strokeStyle = colour('--flag');
+    ctx.beginPath();
+    ctx.moveTo(bbox.left, y);
+    ctx.lineTo(bbox.left + bbox.width, y);
+    ctx.stroke();
+    ctx.strokeStyle = colour('--panel');
+    ctx.lineWidth = 3 * ratio;
+    ctx.setLineDash([]);
+    ctx.strokeText(label, bbox.left + bbox.width - 4 * ratio, y - 4 * ratio);
+    ctx.fillStyle = colour('--flag');
+    ctx.fillText(label, bbox.left + bbox.width - 4 * ratio, y - 4 * ratio);
+    ctx.lineWidth = ratio;
+    ctx.setLineDash([6 * ratio, 4 * ratio]);
+  }
+  ctx.restore();
 }
 
 function tickText(value: number): string {

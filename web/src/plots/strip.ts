@@ -1,28 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 import { colour, h } from '../dom';
-import type { TrackingReport } from '../data/report';
-import { axisOf, nearestIndex, type Shared } from '../data/selection';
-import { kStatuses, runs, type Status } from '../data/status';
+import { nearestIndex, type Place, type Shared } from '../data/selection';
 import { kPlotLeft, kPlotRight } from './plot';
 
 const kRow = 18;
 const kGap = 6;
 
-interface Row {
-  label: string;
-  letters: string;
-  body: number;
+/// A stretch of frames that is told by colour and by height: trouble is tallest.
+export interface StripRun {
+  first: number;   // index of a frame
+  last: number;    // inclusive
+  colour: string;  // a custom property of the style sheet
+  height: number;  // share of the row
+  quiet: boolean;  // may vanish where it is narrower than a pixel
 }
 
-/// What became of each body in each frame: a row for what the frame measured, one for the filter. Status is
-/// told by colour and by height.
-export function statusStrip(report: TrackingReport, shared: Shared): { element: HTMLElement; redraw: () => void } {
-  const rows = report.bodies.flatMap((body, i): Row[] => [
-    { label: body.name, letters: body.status, body: i },
-    ...(body.filtered_status && body.filtered_status !== body.status ? [{ label: 'filtered', letters: body.filtered_status, body: i }] : []),
-  ]);
-  const axis = axisOf(report.frames).values;
-  const canvas = h('canvas', { class: 'strip', role: 'img', 'aria-label': `Status of each body over time. ${rows.map((row) => `${row.label}: ${spoken(row.letters)}`).join('. ')}` });
+export interface StripRow {
+  label: string;
+  runs: StripRun[];
+}
+
+export interface StripContent<S extends Place> {
+  id: string;
+  title: string;
+  words: string;             // what it shows, for who does not see it
+  rows: StripRow[];
+  axis: number[];
+  shared: Shared<S>;
+  key: HTMLElement;
+  point?: (row: number | null) => void;  // what the pointer is upon
+}
+
+/// Rows of stretches over the frames, linked with the plots.
+export function stripView<S extends Place>({ id, title, words, rows, axis, shared, key, point }: StripContent<S>): { element: HTMLElement; redraw: () => void } {
+  const canvas = h('canvas', { class: 'strip', role: 'img', 'aria-label': words });
   const now = h('div', { class: 'now' });
   const over = h('div', { class: 'strip-over', style: `left:${kPlotLeft}px;right:${kPlotRight}px` }, now);
   const range = (): [number, number] => shared.now.range ?? [axis[0], axis[axis.length - 1]];
@@ -40,34 +51,20 @@ export function statusStrip(report: TrackingReport, shared: Shared): { element: 
   };
   over.addEventListener('pointermove', (event) => {
     const [low, high] = range();
-    shared.set({ frame: nearestIndex(axis, low + ((high - low) * event.offsetX) / over.clientWidth) });
+    const box = over.getBoundingClientRect();
+    point?.(Math.min(rows.length - 1, Math.max(0, Math.floor((event.clientY - box.top) / (kRow + kGap)))));
+    shared.set({ frame: nearestIndex(axis, low + ((high - low) * (event.clientX - box.left)) / over.clientWidth) } as Partial<S>);
   });
+  over.addEventListener('pointerleave', () => point?.(null));
   shared.watch((after, before) => (after.range === before.range ? showNow() : redraw()));
   const labels = h('div', { class: 'strip-labels', 'aria-hidden': 'true' }, ...rows.map((row) => h('span', { title: row.label }, row.label)));
-  const element = h('figure', { class: 'figure', id: 'figure-status' },
-    h('figcaption', {}, h('span', { class: 'figure-title' }, 'Status by body'), statusKey()),
+  const element = h('figure', { class: 'figure', id: `figure-${id}` },
+    h('figcaption', {}, h('span', { class: 'figure-title' }, title), key),
     h('div', { class: 'strip-holder' }, canvas, labels, over));
   return { element, redraw };
 }
 
-export function statusBadge(status: Status): HTMLElement {
-  const { word, colour: name } = kStatuses[status];
-  return h('span', { class: 'badge', style: `--key: var(${name})` }, h('i'), word);
-}
-
-function statusKey(): HTMLElement {
-  return h('span', { class: 'status-key' }, ...Object.values(kStatuses).map(({ word, meaning, colour: name, height }) =>
-    h('span', { class: 'key block', title: meaning, style: `--key: var(${name}); --tall: ${height}` }, h('i'), word)));
-}
-
-function spoken(letters: string): string {
-  return Object.entries(kStatuses).map(([letter, { word }]) => {
-    const frames = letters.split(letter).length - 1;
-    return frames ? `${word} in ${frames} frames` : '';
-  }).filter(Boolean).join(', ');
-}
-
-function draw(canvas: HTMLCanvasElement, width: number, rows: Row[], axis: number[], [low, high]: [number, number]): void {
+function draw(canvas: HTMLCanvasElement, width: number, rows: StripRow[], axis: number[], [low, high]: [number, number]): void {
   const height = rows.length * (kRow + kGap);
   const ratio = window.devicePixelRatio || 1;
   canvas.width = width * ratio;
@@ -82,13 +79,12 @@ function draw(canvas: HTMLCanvasElement, width: number, rows: Row[], axis: numbe
     const bottom = r * (kRow + kGap) + kRow;
     context.fillStyle = colour('--track');
     context.fillRect(kPlotLeft, bottom - kRow, span, kRow);
-    for (const run of runs(row.letters)) {
-      const words = kStatuses[run.status];
+    for (const run of row.runs) {
       const [from, to] = [x(edge(run.first)), x(edge(run.last + 1))];
       if (to <= kPlotLeft || from >= kPlotLeft + span) continue;
-      context.fillStyle = colour(words.colour);
+      context.fillStyle = colour(run.colour);
       // A single frame must stay visible among thousands.
-      context.fillRect(from, bottom - kRow * words.height, Math.max(to - from, run.status === 'O' ? 0 : 1.5), kRow * words.height);
+      context.fillRect(from, bottom - kRow * run.height, Math.max(to - from, run.quiet ? 0 : 1.5), kRow * run.height);
     }
   });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { roundStep } from '../data/format';
 import { present, type Column } from '../data/statistics';
+import { logRangeOf } from './ranges';
 import type { Figure, Trace } from './figures';
 
 const kWidth = 720;
@@ -15,26 +16,36 @@ const kBottom = 46;
 export function svgOf(figure: Figure, colour: (name: string) => string): string {
   const xs = figure.axis.values;
   const ys = [...figure.traces.map((trace) => trace.values), ...figure.bands.flatMap((band) => [band.low, band.high])].flatMap(present);
-  const low = Math.min(figure.fromZero ? 0 : Infinity, ys.length ? Math.min(...minmax(ys)) : 0);
-  const high = ys.length ? Math.max(...minmax(ys)) : 1;
-  const room = (high - low || 1) * 0.05;
-  const [bottom, top] = [figure.fromZero ? low : low - room, high + room];
+  const limits = figure.limits ?? [];
+  const [bottom, top] = spanOfValues(figure, [...ys, ...limits.map((limit) => limit.value)]);
   const x = (value: number) => kLeft + ((value - xs[0]) / (xs[xs.length - 1] - xs[0] || 1)) * (kWidth - kLeft - kRight);
-  const y = (value: number) => kHeight - kBottom - ((value - bottom) / (top - bottom)) * (kHeight - kTop - kBottom);
+  const part = figure.log
+    ? (value: number) => Math.log(Math.max(value, bottom) / bottom) / Math.log(top / bottom)
+    : (value: number) => (value - bottom) / (top - bottom);
+  const y = (value: number) => kHeight - kBottom - part(value) * (kHeight - kTop - kBottom);
   const place = { x, y, xs };
 
   const parts = [
     `<rect width="${kWidth}" height="${kHeight}" fill="#fff"/>`,
     text(kLeft, 18, `${figure.title} (${figure.unit})`, 'font-weight="600"'),
     ...ticks(xs[0], xs[xs.length - 1]).map((tick) => line(x(tick), kTop, x(tick), kHeight - kBottom) + text(x(tick), kHeight - kBottom + 16, tickText(tick), 'text-anchor="middle" fill="#555"')),
-    ...ticks(bottom, top).map((tick) => line(kLeft, y(tick), kWidth - kRight, y(tick)) + text(kLeft - 6, y(tick) + 4, tickText(tick), 'text-anchor="end" fill="#555"')),
+    ...(figure.log ? logTicks(bottom, top) : ticks(bottom, top)).map((tick) => line(kLeft, y(tick), kWidth - kRight, y(tick)) + text(kLeft - 6, y(tick) + 4, tickText(tick), 'text-anchor="end" fill="#555"')),
     text((kLeft + kWidth - kRight) / 2, kHeight - 10, figure.axis.label, 'text-anchor="middle" fill="#555"'),
     `<text transform="translate(14 ${(kTop + kHeight - kBottom) / 2}) rotate(-90)" text-anchor="middle" fill="#555">${escaped(figure.unit)}</text>`,
     ...figure.bands.map((band) => `<path d="${area(band.low, band.high, place)}" fill="${colour(band.colour)}" fill-opacity="0.18"/>`),
     ...figure.traces.map((trace) => drawn(trace, place, colour(trace.colour))),
+    ...limits.map(({ label, value }) => `<path d="M${kLeft} ${y(value).toFixed(2)}H${kWidth - kRight}" stroke="${colour('--flag')}" stroke-dasharray="6 4"/>${text(kWidth - kRight - 4, y(value) - 4, label, `text-anchor="end" fill="${colour('--flag')}"`)}`),
     ...key(figure, colour),
   ];
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${kWidth}" height="${kHeight}" viewBox="0 0 ${kWidth} ${kHeight}" font-family="system-ui, sans-serif" font-size="11">${parts.join('')}</svg>`;
+}
+
+function spanOfValues(figure: Figure, ys: number[]): [number, number] {
+  if (figure.log) return logRangeOf(...minmax(ys.filter((value) => value > 0)));
+  const low = Math.min(figure.fromZero ? 0 : Infinity, ys.length ? Math.min(...minmax(ys)) : 0);
+  const high = ys.length ? Math.max(...minmax(ys)) : 1;
+  const room = (high - low || 1) * 0.05;
+  return [figure.fromZero ? low : low - room, high + room];
 }
 
 interface Place {
@@ -102,6 +113,19 @@ export function ticks(low: number, high: number): number[] {
   const step = roundStep((high - low) / 4);
   const found: number[] = [];
   for (let i = Math.ceil(low / step - 1e-9); i * step <= high + step * 1e-9; ++i) found.push(i * step + 0);
+  return found;
+}
+
+/// Round values on a logarithmic axis: every power of ten, between them 2 and 5 where there is room.
+export function logTicks(low: number, high: number): number[] {
+  const found: number[] = [];
+  const leads = high / low > 3000 ? [1] : [1, 2, 5];
+  for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); ++power) {
+    for (const lead of leads) {
+      const tick = Number(`${lead}e${power}`);
+      if (tick >= low * (1 - 1e-9) && tick <= high * (1 + 1e-9)) found.push(tick);
+    }
+  }
   return found;
 }
 

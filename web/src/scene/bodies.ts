@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import * as THREE from 'three';
-import { kEllipsoid95 } from '../data/bands';
 import { posesOf, statusOf } from '../data/errors';
-import { apply, cholesky, motionOf, pointCovariance } from '../data/pose';
+import { apply, motionOf, pointCovariance } from '../data/pose';
 import type { Vec3 } from '../data/parts';
 import type { BodyTrack } from '../data/report';
 import type { Source } from '../data/selection';
 import { bodyColour } from '../plots/figures';
+import { errorEllipsoid, placeEllipsoid } from './error_ellipsoid';
 import { segments, type Inks } from './ink';
 import type { Label } from './labels';
 import { kSeen, placeAt, pointMark, seenBy, targetMarks } from './marks';
@@ -32,12 +32,10 @@ export function bodyView(body: BodyTrack, index: number, scales: Scales, inks: I
   const marks = body.targets.map((target) => targetMarks(target.normal, 0.5 * (target.diameter_mm ?? 0.03 * scales.span / scales.discs) * scales.discs, target.position_mm, name, inks, moving));
   moving.add(measuredLines, predictedLines, pointMark(body.point.position_mm, 0.02 * scales.span, inks));
 
-  const sphere = new THREE.SphereGeometry(1, 40, 24);
-  const full = new THREE.Mesh(sphere, inks.solid(name, 0.42));
-  const mesh = new THREE.Mesh(new THREE.SphereGeometry(1, 16, 10), inks.solid('--predicted-ink', 0.6, true));
+  const full = errorEllipsoid(inks.solid(name, 0.42));
+  const mesh = errorEllipsoid(inks.solid('--predicted-ink', 0.6, true), [16, 10]);
   const ellipsoid = new THREE.Group();
   ellipsoid.add(full, mesh);
-  for (const part of [full, mesh]) part.matrixAutoUpdate = false;
   group.add(moving, ellipsoid);
 
   const show = (frame: number, source: Source) => {
@@ -53,12 +51,7 @@ export function bodyView(body: BodyTrack, index: number, scales: Scales, inks: I
       const seen = predicted ? 'hidden' : seenBy(body.sightings[i]?.seen[frame]);
       for (const kind of kSeen) mark[kind].visible = kind === seen;
     });
-    const [a, b, c, d, e, f] = cholesky(pointCovariance(row)).map((v) => v * kEllipsoid95 * scales.ellipsoids);
-    const [x, y, z] = apply(motion, body.point.position_mm);
-    for (const part of [full, mesh]) {
-      part.matrix.set(a, 0, 0, x, b, c, 0, y, d, e, f, z, 0, 0, 0, 1);
-      part.matrixWorldNeedsUpdate = true;
-    }
+    for (const part of [full, mesh]) placeEllipsoid(part, pointCovariance(row), apply(motion, body.point.position_mm), scales.ellipsoids);
   };
 
   const labels = (frame: number, source: Source, active: boolean): Label[] => {

@@ -19,6 +19,13 @@ export class Inks {
     return this.keep(name, new THREE.MeshLambertMaterial({ transparent: opacity < 1, opacity, wireframe, depthWrite: opacity === 1 }));
   }
 
+  /// A surface that things are drawn upon: pushed back a little, so that they do not flicker.
+  surface(name: string, opacity: number): THREE.MeshLambertMaterial {
+    return this.keep(name, new THREE.MeshLambertMaterial({
+      side: THREE.DoubleSide, transparent: opacity < 1, opacity, depthWrite: opacity === 1, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2,
+    }));
+  }
+
   line(name: string, width: number, opacity = 1, dash = 0): LineMaterial {
     const material = new LineMaterial({ linewidth: width, transparent: opacity < 1, opacity, dashed: dash > 0, dashSize: dash, gapSize: dash * 0.7 });
     this.lines.push(material);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import * as THREE from 'three';
-import type { LayoutReport, Volume } from '../data/layout';
+import type { LayoutReport } from '../data/layout';
 import type { Target, Vec3 } from '../data/parts';
 import { apply, motionOf } from '../data/pose';
 import { rotate } from '../data/quaternion';
@@ -13,6 +13,7 @@ import { constellation, discScale, roomScales, type RoomScales } from './scales'
 import { kDirections } from './scene';
 import { bordersOf, meshOf, sheetsOfPatch, sheetsOfSolid } from './solids';
 import { stageOf, type Stage } from './stage';
+import { volumeEdges } from './volume';
 
 export type LayoutLayer = 'surface' | 'keep-outs' | 'obstacles' | 'volume' | 'fields' | 'sight lines' | 'present' | 'names';
 export type LayoutViewPoint = 'targets' | 'onto the surface' | 'cell' | 'left camera' | 'side';
@@ -139,16 +140,6 @@ function bodyLabels(report: LayoutReport, now: LayoutSelection): Label[] {
     ...layout.targets.map((target): Label => ({ text: target.id, at: apply(motion, target.position_mm), colour: kInk, strong: true })),
     ...report.points.map((point): Label => ({ text: point.name, at: apply(motion, point.position_mm), colour: '--ink' })),
   ];
-}
-
-function volumeEdges(volume: Volume): Vec3[] {
-  const motion = motionOf(volume.pose);
-  const ring = (z: number, [w, h]: [number, number]): Vec3[] => ([[-1, -1], [1, -1], [1, 1], [-1, 1]] as const)
-    .map(([x, y]) => apply(motion, [(x * w) / 2, (y * h) / 2, z]));
-  const near = ring(volume.near_mm, volume.near_size_mm);
-  const far = ring(volume.far_mm, volume.far_size_mm);
-  const round = (c: Vec3[]): Vec3[] => c.flatMap((p, i): Vec3[] => [p, c[(i + 1) % 4]]);
-  return [...round(near), ...round(far), ...near.flatMap((p, i): Vec3[] => [p, far[i]])];
 }
 
 /// From the cameras to each target they see in this pose.

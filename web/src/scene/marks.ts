@@ -13,6 +13,9 @@ export function seenBy(code: string | undefined): Seen {
   return code === '3' ? 'both' : code === '1' || code === '2' ? 'one' : 'hidden';
 }
 
+/// A custom property of the style sheet for each way of being seen.
+export type SeenColours = Record<Seen, string>;
+
 export type TargetMarks = Record<Seen, THREE.Object3D>;
 
 export function placeAt(object: THREE.Object3D, { translation, rotation: [w, x, y, z] }: Motion): void {
@@ -21,7 +24,7 @@ export function placeAt(object: THREE.Object3D, { translation, rotation: [w, x, 
 }
 
 /// A disc with a pin along its normal, in its three ways of being seen; added to `into`.
-export function targetMarks(normal: Vec3 | undefined, radius: number, at: Vec3, name: string, inks: Inks, into: THREE.Group): TargetMarks {
+export function targetMarks(normal: Vec3 | undefined, radius: number, at: Vec3, name: string | SeenColours, inks: Inks, into: THREE.Group): TargetMarks {
   const disc = new THREE.CircleGeometry(radius, 32);
   const ring = new THREE.RingGeometry(radius * 0.74, radius, 32);
   const dot = new THREE.CircleGeometry(radius * 0.5, 24);
@@ -37,7 +40,8 @@ export function targetMarks(normal: Vec3 | undefined, radius: number, at: Vec3, 
     into.add(group);
     return group;
   };
-  return { both: make(name, disc), one: make(name, ring, dot), hidden: make('--hidden', ring) };
+  const colours = typeof name === 'string' ? { both: name, one: name, hidden: '--hidden' } : name;
+  return { both: make(colours.both, disc), one: make(colours.one, ring, dot), hidden: make(colours.hidden, ring) };
 }
 
 /// A ring around where a target is not, but was or will be.

@@ -7,6 +7,11 @@ import { standingPoint } from './fit';
 import { Inks } from './ink';
 import { drawLabels, type Label } from './labels';
 
+export type Vec2 = [number, number];
+
+/// Drawn over the view, also in its PNG and print; px from the left top.
+export type Overlay = (context: CanvasRenderingContext2D, width: number, height: number) => void;
+
 /// What a page does with a 3-D view, whatever it shows.
 export interface Stage {
   element: HTMLElement;
@@ -15,16 +20,20 @@ export interface Stage {
   request: () => void;                                         // draw when the browser next does
   stand: (target: Vec3, position: Vec3) => void;
   see: (points: Vec3[], direction: Vec3) => void;              // all points, looking against the direction
+  project: (at: Vec3) => Vec2 | null;                          // from the view's left top, px; null outside
+  rayAt: (x: number, y: number) => THREE.Raycaster;            // through that place of the view
+  onClick: (listener: (x: number, y: number) => void) => void; // a press that does not drag
   refresh: () => void;                                         // after a change of theme or size
   still: () => void;                                           // before printing: browsers print no WebGL
   png: () => Promise<Blob | null>;
 }
 
 const kFieldOfView = 32;
+const kStill = 4;     // px: a press that moves further turns the view
 const kMargin = 0.84;  // of the view is filled
 
 /// A view of things in the tracker's frame (x right, y down, z forward), drawn only when something changed.
-export function stageOf(words: string, radius: number, labels: () => Label[]): Stage {
+export function stageOf(words: string, radius: number, labels: () => Label[], overlay: Overlay = () => {}): Stage {
   const drawing = h('canvas', { role: 'img', tabindex: 0, 'aria-label': `${words}. Drag turns, wheel zooms, right drag moves; the arrow keys step through the frames.` });
   const names = h('canvas', { class: 'names', 'aria-hidden': 'true' });
   const printed = h('img', { class: 'printed', alt: words });
@@ -45,6 +54,7 @@ export function stageOf(words: string, radius: number, labels: () => Label[]): S
     lamp.position.copy(camera.position);
     renderer.render(scene, camera);
     drawLabels(names, labels(), camera);
+    overlay(names.getContext('2d')!, element.clientWidth, element.clientHeight);
   };
   const request = () => {
     if (waiting) return;
@@ -85,10 +95,32 @@ export function stageOf(words: string, radius: number, labels: () => Label[]): S
     context.drawImage(names, 0, 0, both.width, both.height);
     return both;
   };
+  const project = (at: Vec3): Vec2 | null => {
+    const place = new THREE.Vector3(...at).project(camera);
+    if (Math.abs(place.z) > 1) return null;
+    return [((place.x + 1) / 2) * element.clientWidth, ((1 - place.y) / 2) * element.clientHeight];
+  };
+  const rayAt = (x: number, y: number) => {
+    const caster = new THREE.Raycaster();
+    camera.updateMatrixWorld();
+    caster.setFromCamera(new THREE.Vector2((2 * x) / element.clientWidth - 1, 1 - (2 * y) / element.clientHeight), camera);
+    return caster;
+  };
+  const onClick = (listener: (x: number, y: number) => void) => {
+    let down: Vec2 | null = null;
+    drawing.addEventListener('pointerdown', (event) => (down = event.button === 0 ? [event.clientX, event.clientY] : null));
+    drawing.addEventListener('pointerup', (event) => {
+      if (!down || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > kStill) return;
+      const box = drawing.getBoundingClientRect();
+      listener(event.clientX - box.left, event.clientY - box.top);
+    });
+  };
+  // Where a place of the tracker is on the screen, for who drives the page by script.
+  Object.assign(drawing, { project });
   controls.addEventListener('change', request);
   new ResizeObserver(refresh).observe(element);
   return {
-    element, scene, inks, request, stand, see, refresh,
+    element, scene, inks, request, stand, see, project, rayAt, onClick, refresh,
     still: () => {
       printed.src = composed().toDataURL();
     },

@@ -4,7 +4,7 @@ import type { TrackingReport } from '../data/report';
 import type { Shared } from '../data/selection';
 import { runs, type Run } from '../data/status';
 import { h } from '../dom';
-import { statusBadge } from '../plots/strip';
+import { statusBadge } from '../plots/status_strip';
 
 interface Event {
   body: number;

@@ -2,7 +2,7 @@
 import { h } from '../dom';
 import type { SummaryRow } from '../data/parts';
 
-const kVerdictWords = { plain: '', good: 'good', attention: 'look at this', bad: 'bad' } as const;
+export const kVerdictWords = { plain: '', good: 'good', attention: 'look at this', bad: 'bad' } as const;
 
 /// What was found and how sure, then what to beware of: the first thing a reader sees. `nothing` is said
 /// where there are no remarks.
