@@ -5,7 +5,10 @@
 #include <pmmintrin.h>
 #include <xmmintrin.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "asterism/core/result.hpp"
 
@@ -46,6 +49,40 @@ RTCRay ray_between(const Vec3& from, const Vec3& to) {
   ray.tfar = 1;
   ray.mask = ~0U;
   return ray;
+}
+
+constexpr std::size_t kPacket = 16;
+constexpr double kRoundingMm = 0.01;  // more than single precision moves anything in a cell
+
+/// Up to sixteen ways that begin at the places `which` of `from`; those of them that are blocked.
+template <class Blocked>
+void ask_packet(RTCScene scene, std::span<const Vec3> from, std::span<const std::size_t> which,
+                const Vec3& to, const Blocked& blocked) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  alignas(64) RTCRay16 rays;
+  alignas(64) std::array<int, kPacket> valid;
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    const bool asked = i < which.size();
+    const RTCRay ray = ray_between(from[which[asked ? i : 0]], to);
+    valid[i] = asked ? -1 : 0;
+    rays.org_x[i] = ray.org_x;
+    rays.org_y[i] = ray.org_y;
+    rays.org_z[i] = ray.org_z;
+    rays.dir_x[i] = ray.dir_x;
+    rays.dir_y[i] = ray.dir_y;
+    rays.dir_z[i] = ray.dir_z;
+    rays.tnear[i] = 0;
+    rays.tfar[i] = 1;
+    rays.time[i] = 0;
+    rays.mask[i] = ~0U;
+    rays.flags[i] = 0;
+  }
+  rtcOccluded16(valid.data(), scene, &context, &rays);
+  for (std::size_t i = 0; i < which.size(); ++i) {
+    if (rays.tfar[i] < 0) blocked(which[i]);
+  }
 }
 
 void add_surface(RTCScene scene, const TriangleMesh& mesh) {
@@ -89,7 +126,16 @@ struct RayScene::Tree {
 };
 
 RayScene::RayScene(std::span<const TriangleMesh> surfaces) : tree_(std::make_shared<Tree>(surfaces)) {
-  for (const TriangleMesh& surface : surfaces) triangles_ += surface.triangles.size();
+  lowest_.setConstant(std::numeric_limits<double>::infinity());
+  highest_ = -lowest_;
+  for (const TriangleMesh& surface : surfaces) {
+    triangles_ += surface.triangles.size();
+    if (surface.empty()) continue;
+    for (const Vec3& vertex : surface.vertices) {
+      lowest_ = lowest_.cwiseMin(vertex);
+      highest_ = highest_.cwiseMax(vertex);
+    }
+  }
 }
 
 bool RayScene::blocked(const Vec3& from, const Vec3& to) const {
@@ -112,6 +158,48 @@ void RayScene::blocked(std::span<const Vec3> from, const Vec3& to, std::span<std
     rtcOccluded1(tree_->scene, &context, &ray);
     out[i] = ray.tfar < 0 ? 1 : 0;
   }
+}
+
+std::size_t RayScene::block_bundle(std::span<const Vec3> from, const Vec3& to, std::size_t most,
+                                   std::span<std::uint8_t> marks) const {
+  require(from.size() == marks.size(), "there is a mark for each way");
+  std::size_t marked = 0;
+  for (const std::uint8_t mark : marks) marked += mark;
+  if (from.empty() || marked > most) return marked;
+  const auto mark = [&](std::size_t way) {
+    marks[way] = 1;
+    ++marked;
+  };
+  if (marks[0] == 0 && blocked(from[0], to)) mark(0);
+
+  const FlushDenormals flush;
+  std::array<std::size_t, kPacket> which{};
+  std::size_t waiting = 0;
+  for (std::size_t i = 1; i < from.size() && marked <= most; ++i) {
+    if (marks[i] == 0) which[waiting++] = i;
+    if (waiting < kPacket && i + 1 < from.size()) continue;
+    if (waiting > 0) ask_packet(tree_->scene, from, std::span(which).first(waiting), to, mark);
+    waiting = 0;
+  }
+  return marked;
+}
+
+bool RayScene::out_of_reach(const Vec3& from, const Vec3& to, double beside_mm) const {
+  if (empty()) return true;
+  const double beside = beside_mm + kRoundingMm;
+  double enters = 0, leaves = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = lowest_(axis) - beside - from(axis), high = highest_(axis) + beside - from(axis);
+    const double way = to(axis) - from(axis);
+    if (way == 0) {
+      if (low > 0 || high < 0) return true;
+      continue;
+    }
+    const double a = low / way, b = high / way;
+    enters = std::max(enters, std::min(a, b));
+    leaves = std::min(leaves, std::max(a, b));
+  }
+  return enters > leaves;
 }
 
 std::optional<RayHit> RayScene::first_hit(const Vec3& from, const Vec3& to) const {

@@ -39,12 +39,24 @@ class RayScene {
   /// neighbours in space.
   void blocked(std::span<const Vec3> from, const Vec3& to, std::span<std::uint8_t> out) const;
 
+  /// The same of a bundle, ways to one point that begin so near to each other that they mostly meet the same
+  /// triangles, as lines of sight from one disc: the first by itself, then sixteen at once, twice as fast.
+  /// What `marks` has as 1 is not asked again; what is found blocked becomes 1. Stops when more than `most`
+  /// are marked. Returns how many are.
+  std::size_t block_bundle(std::span<const Vec3> from, const Vec3& to, std::size_t most,
+                           std::span<std::uint8_t> marks) const;
+
+  /// Can no way hit that stays within `beside_mm` of the line between the two points? By the box around all
+  /// surfaces: what is within reach of the box may still be free.
+  [[nodiscard]] bool out_of_reach(const Vec3& from, const Vec3& to, double beside_mm) const;
+
   [[nodiscard]] std::optional<RayHit> first_hit(const Vec3& from, const Vec3& to) const;
 
  private:
   struct Tree;
   std::shared_ptr<const Tree> tree_;
   std::size_t triangles_ = 0;
+  Vec3 lowest_ = Vec3::Zero(), highest_ = Vec3::Zero();  // corners of the box
 };
 
 /// The same question in double precision over all triangles, one by one (Möller & Trumbore 1997): slow and

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 
 #include "asterism/core/parallel.hpp"
@@ -87,6 +88,56 @@ TEST(RayScene, AnswersManyWaysAsEachByItself) {
     EXPECT_EQ(together[i] != 0, scene.blocked(from[i], to));
     EXPECT_EQ(together[i] != 0, scene.first_hit(from[i], to).has_value());
   }
+}
+
+TEST(RayScene, AnswersABundleAsEachWayByItself) {
+  const TriangleMesh mesh = barrel();
+  const RayScene scene(mesh);
+  std::size_t part = 0;
+  for (std::uint64_t bundle = 0; bundle < 2000; ++bundle) {
+    RandomStream random(6, bundle);
+    const rays::Way way = rays::from_surface(mesh, random);
+    std::vector<Vec3> from;
+    for (std::uint32_t i = 0; i <= bundle % 40; ++i) from.push_back(way.from + rays::in_box(random, 12));
+    std::vector<std::uint8_t> alone(from.size()), together(from.size());
+    scene.blocked(from, way.to, alone);
+    const auto expected = static_cast<std::size_t>(std::count(alone.begin(), alone.end(), 1));
+    EXPECT_EQ(scene.block_bundle(from, way.to, from.size(), together), expected);
+    EXPECT_EQ(together, alone);
+    part += expected > 0 && expected < from.size() ? 1 : 0;
+  }
+  EXPECT_GT(part, 100U);
+}
+
+TEST(RayScene, AsksOfABundleNoMoreThanItMust) {
+  const RayScene scene(plate(100));
+  const std::vector<Vec3> from(100, Vec3(0, 1, 0));
+  std::vector<std::uint8_t> marks(100);
+  marks[99] = 1;
+  EXPECT_EQ(scene.block_bundle(from, {0, 1, 200}, 1, marks), 2U);  // the first and the one marked before
+  EXPECT_EQ(std::count(marks.begin(), marks.end(), 1), 2);
+  EXPECT_EQ(scene.block_bundle(from, {0, 1, 200}, 5, marks), 18U);   // and sixteen more
+  EXPECT_EQ(scene.block_bundle(from, {0, 1, 50}, 100, marks), 18U);  // what is marked stays so
+  EXPECT_EQ(scene.block_bundle({}, {0, 1, 50}, 0, {}), 0U);
+}
+
+TEST(RayScene, IsOutOfReachOnlyOfWhatCannotHit) {
+  EXPECT_TRUE(RayScene(TriangleMesh{}).out_of_reach({0, 0, 0}, {1, 1, 1}, 1000));
+  const RayScene flat(plate(100));
+  EXPECT_TRUE(flat.out_of_reach({60, 0, 0}, {60, 0, 200}, 9));
+  EXPECT_FALSE(flat.out_of_reach({60, 0, 0}, {60, 0, 200}, 11));
+  EXPECT_TRUE(flat.out_of_reach({0, 0, 0}, {0, 0, 90}, 9));
+  RandomStream random(7, 0);
+  const TriangleMesh mesh = rays::soup(5, random);
+  const RayScene scene(mesh);
+  int out = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const rays::Way way = {rays::in_box(random, 1500), rays::in_box(random, 1500)};
+    if (!scene.out_of_reach(way.from, way.to, 0)) continue;
+    EXPECT_FALSE(scene.blocked(way.from, way.to));
+    ++out;
+  }
+  EXPECT_GT(out, 2000);
 }
 
 TEST(RayScene, AnswersManyThreadsAlike) {

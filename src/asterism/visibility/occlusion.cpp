@@ -20,24 +20,15 @@ Vec2 spread_point(int i, int count) {
   return {radius * std::cos(i * golden), radius * std::sin(i * golden)};
 }
 
-/// Where the rays of a target begin, in its carrier's frame. A disc shows its face; what has no normal or no
-/// diameter is a point, which stands proud towards the camera when there is no normal either.
-std::vector<Vec3> starts_of(const Target& target, const Vec3& eye, const OcclusionOptions& options) {
-  const Vec3 normal = target.normal ? *target.normal : Vec3((eye - target.position).normalized());
-  const Vec3 middle = target.position + options.proud_mm * normal;
-  const double radius = target.imaged_radius_mm();
-  if (radius == 0) return {middle};
-  const Vec3 across = radius * normal.unitOrthogonal();
-  const Vec3 along = normal.cross(across);
-  std::vector<Vec3> starts;
-  for (int i = 0; i < options.rays; ++i) {
-    const Vec2 at = spread_point(i, options.rays);
-    starts.emplace_back(middle + at.x() * across + at.y() * along);
-  }
-  return starts;
-}
-
 }  // namespace
+
+/// Where the rays of a target begin, in its carrier's frame. What has no normal or no diameter is a point,
+/// which stands proud towards the camera when there is no normal either.
+struct Occlusion::Face {
+  Vec3 middle;
+  double radius_mm;
+  std::vector<Vec3> starts;
+};
 
 void describe(OcclusionOptions& options, OptionVisitor& visit) {
   visit.integer("rays", options.rays, {1, 4096}, "lines of sight asked, spread evenly over a target's disc");
@@ -71,100 +62,143 @@ Occlusion::Occlusion(const Cell& cell, const OcclusionOptions& options) : rig_(c
   }
 }
 
-/// One group as it stands before a carrier's targets and a camera.
-struct Occlusion::Before {
-  const RayScene* tree;
-  const std::vector<std::size_t>* members;
-  bool same_carrier;
-  RigidMotion group_from_carrier;
-  Vec3 eye;  // in the group's frame
-
-  [[nodiscard]] Vec3 in_group(const Vec3& in_carrier) const {
-    return same_carrier ? in_carrier : Vec3(group_from_carrier * in_carrier);
+Occlusion::Face Occlusion::face_of(const Target& target, const Vec3& normal) const {
+  Face face{target.position + options_.proud_mm * normal, target.imaged_radius_mm(), {}};
+  if (face.radius_mm == 0) {
+    face.starts = {face.middle};
+    return face;
   }
+  const Vec3 across = face.radius_mm * normal.unitOrthogonal();
+  const Vec3 along = normal.cross(across);
+  for (int i = 0; i < options_.rays; ++i) {
+    const Vec2 at = spread_point(i, options_.rays);
+    face.starts.emplace_back(face.middle + at.x() * across + at.y() * along);
+  }
+  return face;
+}
+
+Occlusion::Face Occlusion::face_before(const Target& target, const Vec3& eye_in_carrier) const {
+  return face_of(target,
+                 target.normal ? *target.normal : Vec3((eye_in_carrier - target.position).normalized()));
+}
+
+/// A camera and all groups as they stand before one carrier's targets.
+struct Occlusion::View {
+  struct Before {
+    const Group* group;
+    bool moves_with_targets;
+    RigidMotion group_from_carrier;
+    Vec3 eye;  // in the group's frame
+
+    [[nodiscard]] Vec3 in_group(const Vec3& in_carrier) const {
+      return moves_with_targets ? in_carrier : Vec3(group_from_carrier * in_carrier);
+    }
+  };
+  Vec3 eye;  // in the carrier's frame
+  std::vector<Before> groups;
 };
 
-std::vector<Occlusion::Before> Occlusion::before(std::size_t carrier,
-                                                 std::span<const RigidMotion> tracker_from_mover,
-                                                 const Vec3& eye_in_tracker) const {
-  std::vector<Before> all;
+Occlusion::View Occlusion::view(std::size_t carrier, std::span<const RigidMotion> tracker_from_mover,
+                                Side side) const {
+  require(carrier < tracker_from_mover.size(), "each mover of the cell has a pose");
+  const Vec3 eye = rig_.camera_from_tracker(side).inverse().translation;
+  View view{tracker_from_mover[carrier].inverse() * eye, {}};
   for (const Group& group : groups_) {
     const RigidMotion group_from_tracker =
         group.carrier < 0 ? RigidMotion{}
                           : tracker_from_mover[static_cast<std::size_t>(group.carrier)].inverse();
-    all.push_back({&group.tree, &group.members, group.carrier == static_cast<int>(carrier),
-                   group_from_tracker * tracker_from_mover[carrier], group_from_tracker * eye_in_tracker});
+    view.groups.push_back({&group, group.carrier == static_cast<int>(carrier),
+                           group_from_tracker * tracker_from_mover[carrier], group_from_tracker * eye});
   }
-  return all;
+  return view;
 }
 
-Vec3 Occlusion::eye_of(Side side) const { return rig_.camera_from_tracker(side).inverse().translation; }
+/// How many of a face's rays are blocked; where it is more than `most`, it may be more than is told.
+std::size_t Occlusion::blocked(const Face& face, const View& view, std::size_t most) const {
+  std::vector<std::uint8_t> marks(face.starts.size());
+  std::vector<Vec3> moved;
+  std::size_t marked = 0;
+  for (const View::Before& before : view.groups) {
+    const RayScene& tree = before.group->tree;
+    if (tree.out_of_reach(before.in_group(face.middle), before.eye, face.radius_mm)) continue;
+    if (before.moves_with_targets) {
+      marked = tree.block_bundle(face.starts, before.eye, most, marks);
+    } else {
+      moved.clear();
+      for (const Vec3& start : face.starts) moved.push_back(before.in_group(start));
+      marked = tree.block_bundle(moved, before.eye, most, marks);
+    }
+    if (marked > most) break;
+  }
+  return marked;
+}
+
+/// So many of a target's rays may end at something.
+std::size_t Occlusion::most_blocked(const Face& face) const {
+  const auto rays = static_cast<double>(face.starts.size());
+  return static_cast<std::size_t>(std::floor((1.0 - options_.least_share) * rays + 1e-9));
+}
 
 double Occlusion::free_share(const Target& target, std::size_t carrier,
                              std::span<const RigidMotion> tracker_from_mover, Side side) const {
-  const Vec3 eye = eye_of(side);
-  const auto groups = before(carrier, tracker_from_mover, eye);
-  const auto starts = starts_of(target, tracker_from_mover[carrier].inverse() * eye, options_);
-  const auto blocked = std::count_if(starts.begin(), starts.end(), [&](const Vec3& start) {
-    return std::any_of(groups.begin(), groups.end(), [&](const Before& group) {
-      return group.tree->blocked(group.in_group(start), group.eye);
-    });
-  });
-  return 1.0 - static_cast<double>(blocked) / static_cast<double>(starts.size());
+  const View from = view(carrier, tracker_from_mover, side);
+  const Face face = face_before(target, from.eye);
+  const std::size_t all = face.starts.size();
+  return 1.0 - static_cast<double>(blocked(face, from, all)) / static_cast<double>(all);
 }
 
 std::optional<std::size_t> Occlusion::hidden_by(const Target& target, std::size_t carrier,
                                                 std::span<const RigidMotion> tracker_from_mover,
                                                 Side side) const {
-  const Vec3 eye = eye_of(side);
-  const auto groups = before(carrier, tracker_from_mover, eye);
-  const auto starts = starts_of(target, tracker_from_mover[carrier].inverse() * eye, options_);
-  std::vector<std::size_t> first_met(names_.size());
-  std::size_t blocked = 0;
-  for (const Vec3& start : starts) {
+  const View from = view(carrier, tracker_from_mover, side);
+  const Face face = face_before(target, from.eye);
+  const std::size_t most = most_blocked(face);
+  if (blocked(face, from, most) <= most) return std::nullopt;
+  std::vector<std::size_t> rays_of(names_.size());
+  for (const Vec3& start : face.starts) {
     double nearest = std::numeric_limits<double>::infinity();
     std::size_t solid = 0;
-    for (const Before& group : groups) {
-      const auto hit = group.tree->first_hit(group.in_group(start), group.eye);
+    for (const View::Before& before : from.groups) {
+      const auto hit = before.group->tree.first_hit(before.in_group(start), before.eye);
       if (!hit || hit->share >= nearest) continue;
       nearest = hit->share;
-      solid = (*group.members)[hit->surface];
+      solid = before.group->members[hit->surface];
     }
-    if (!std::isfinite(nearest)) continue;
-    ++blocked;
-    ++first_met[solid];
+    if (std::isfinite(nearest)) ++rays_of[solid];
   }
-  if (blocked <= most_blocked(starts.size())) return std::nullopt;
-  return static_cast<std::size_t>(std::max_element(first_met.begin(), first_met.end()) - first_met.begin());
-}
-
-/// So many of a target's rays may end at something.
-std::size_t Occlusion::most_blocked(std::size_t rays) const {
-  return static_cast<std::size_t>(
-      std::floor((1.0 - options_.least_share) * static_cast<double>(rays) + 1e-9));
+  return static_cast<std::size_t>(std::max_element(rays_of.begin(), rays_of.end()) - rays_of.begin());
 }
 
 MotionVisibility Occlusion::unhidden_targets(std::span<const Target> targets, std::size_t carrier,
                                              std::span<const std::vector<RigidMotion>> poses) const {
+  const TargetMask all =
+      targets.size() == kMaxTargets ? ~TargetMask{0} : (TargetMask{1} << targets.size()) - 1;
+  return unhidden_of({std::vector(poses.size(), std::array{all, all})}, targets, carrier, poses);
+}
+
+MotionVisibility Occlusion::unhidden_of(const MotionVisibility& seen, std::span<const Target> targets,
+                                        std::size_t carrier,
+                                        std::span<const std::vector<RigidMotion>> poses) const {
   require(targets.size() <= kMaxTargets, "a body has at most 64 targets");
-  MotionVisibility unhidden{std::vector<std::array<TargetMask, 2>>(poses.size())};
+  require(seen.poses() == poses.size(), "visibilities that are joined are of the same poses");
+  MotionVisibility unhidden = seen;
+  if (empty()) return unhidden;
+  std::vector<std::optional<Face>> faces(targets.size());  // those that look the same to every camera
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    if (targets[i].normal) faces[i] = face_of(targets[i], *targets[i].normal);
+  }
   parallel_for(poses.size(), [&](std::size_t pose) {
     for (const Side side : {Side::Left, Side::Right}) {
-      const Vec3 eye = eye_of(side);
-      const auto groups = before(carrier, poses[pose], eye);
-      TargetMask mask = 0;
+      TargetMask& mask = unhidden.seen[pose][static_cast<std::size_t>(side)];
+      if (mask == 0) continue;
+      const View from = view(carrier, poses[pose], side);
       for (std::size_t i = 0; i < targets.size(); ++i) {
-        const auto starts = starts_of(targets[i], poses[pose][carrier].inverse() * eye, options_);
-        const std::size_t allowed = most_blocked(starts.size());
-        std::size_t blocked = 0;
-        for (std::size_t ray = 0; ray < starts.size() && blocked <= allowed; ++ray) {
-          blocked += std::any_of(groups.begin(), groups.end(), [&](const Before& group) {
-            return group.tree->blocked(group.in_group(starts[ray]), group.eye);
-          });
-        }
-        if (blocked <= allowed) mask |= TargetMask{1} << i;
+        if ((mask >> i & 1U) == 0) continue;
+        const Face own = faces[i] ? Face{} : face_before(targets[i], from.eye);
+        const Face& face = faces[i] ? *faces[i] : own;
+        const std::size_t most = most_blocked(face);
+        if (blocked(face, from, most) > most) mask &= ~(TargetMask{1} << i);
       }
-      unhidden.seen[pose][static_cast<std::size_t>(side)] = mask;
     }
   });
   return unhidden;

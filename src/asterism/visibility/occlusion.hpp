@@ -50,18 +50,25 @@ class Occlusion {
   [[nodiscard]] MotionVisibility unhidden_targets(std::span<const Target> targets, std::size_t carrier,
                                                   std::span<const std::vector<RigidMotion>> poses) const;
 
+  /// common(seen, unhidden_targets(…)) in less time: what is not seen anyway is not asked about.
+  [[nodiscard]] MotionVisibility unhidden_of(const MotionVisibility& seen, std::span<const Target> targets,
+                                             std::size_t carrier,
+                                             std::span<const std::vector<RigidMotion>> poses) const;
+
  private:
   struct Group {
     int carrier;                       // a mover; −1 = the tracker
     std::vector<std::size_t> members;  // places in names_, by surface of the tree
     RayScene tree;
   };
-  struct Before;
-  [[nodiscard]] std::vector<Before> before(std::size_t carrier,
-                                           std::span<const RigidMotion> tracker_from_mover,
-                                           const Vec3& eye_in_tracker) const;
-  [[nodiscard]] Vec3 eye_of(Side side) const;
-  [[nodiscard]] std::size_t most_blocked(std::size_t rays) const;
+  struct Face;
+  struct View;
+  [[nodiscard]] Face face_of(const Target& target, const Vec3& normal) const;
+  [[nodiscard]] Face face_before(const Target& target, const Vec3& eye_in_carrier) const;
+  [[nodiscard]] View view(std::size_t carrier, std::span<const RigidMotion> tracker_from_mover,
+                          Side side) const;
+  [[nodiscard]] std::size_t blocked(const Face& face, const View& view, std::size_t most) const;
+  [[nodiscard]] std::size_t most_blocked(const Face& face) const;
 
   StereoRig rig_;
   OcclusionOptions options_;

@@ -182,6 +182,20 @@ TEST(UnhiddenTargets, SaysOfEachPoseWhatFreeShareSays) {
   EXPECT_LT(hidden, compared / 2);
 }
 
+TEST(UnhiddenTargets, AsksNoMoreThanItMustForTheSameAnswer) {
+  const Busy scene = busy();
+  const Occlusion occlusion(scene.cell);
+  std::vector<RigidMotion> of_platform;
+  for (const auto& pose : scene.poses) of_platform.push_back(pose[0]);
+  VisibilityOptions options;
+  options.max_incidence_deg = 40;
+  const auto seen = visible_targets(scene.targets, of_platform, scene.cell.rig, {}, options);
+  const auto joined = common(seen, occlusion.unhidden_targets(scene.targets, 0, scene.poses));
+  EXPECT_EQ(occlusion.unhidden_of(seen, scene.targets, 0, scene.poses).seen, joined.seen);
+  EXPECT_NE(joined.seen, seen.seen);
+  EXPECT_EQ(Occlusion(Cell{}).unhidden_of(seen, scene.targets, 0, scene.poses).seen, seen.seen);
+}
+
 TEST(UnhiddenTargets, DoesNotDependOnWhereTheBodysFrameLies) {
   Busy scene = busy();
   const auto before = Occlusion(scene.cell).unhidden_targets(scene.targets, 0, scene.poses);

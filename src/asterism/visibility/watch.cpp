@@ -123,8 +123,8 @@ AttitudeMap attitude_map(const Cell& cell, std::size_t mover, double reach_deg, 
     }
   }
   const std::vector<Target>& targets = cell.movers[mover].body.targets;
-  const MotionVisibility seen = common(visible_targets(targets, of_body, cell.rig, cell.volume, visibility),
-                                       occlusion.unhidden_targets(targets, mover, poses));
+  const MotionVisibility seen = occlusion.unhidden_of(
+      visible_targets(targets, of_body, cell.rig, cell.volume, visibility), targets, mover, poses);
   for (std::size_t row = 0; row < map.pitch_deg.size(); ++row) {
     auto& masks = map.seen_by_both.emplace_back();
     auto& counts = map.visible.emplace_back();
