@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <cstddef>
 
 #include "asterism/core/result.hpp"
 
@@ -36,31 +36,31 @@ RTCDevice device() {
   return the_device;
 }
 
+/// Embree reads a ray by fours; written one by one it would wait for each of them.
 RTCRay ray_between(const Vec3& from, const Vec3& to) {
-  RTCRay ray{};
-  const Vec3 way = to - from;
-  ray.org_x = static_cast<float>(from.x());
-  ray.org_y = static_cast<float>(from.y());
-  ray.org_z = static_cast<float>(from.z());
-  ray.dir_x = static_cast<float>(way.x());
-  ray.dir_y = static_cast<float>(way.y());
-  ray.dir_z = static_cast<float>(way.z());
-  ray.tnear = 0;
+  static_assert(offsetof(RTCRay, dir_x) == 16 && offsetof(RTCRay, tfar) == 32);
+  RTCRay ray;
+  const Eigen::Vector3f origin = from.cast<float>(), way = (to - from).cast<float>();
+  _mm_store_ps(&ray.org_x, _mm_setr_ps(origin.x(), origin.y(), origin.z(), 0));  // tnear
+  _mm_store_ps(&ray.dir_x, _mm_setr_ps(way.x(), way.y(), way.z(), 0));           // time
   ray.tfar = 1;
   ray.mask = ~0U;
+  ray.flags = 0;
   return ray;
 }
 
+bool is_blocked(RTCScene scene, RTCIntersectContext& context, const Vec3& from, const Vec3& to) {
+  RTCRay ray = ray_between(from, to);
+  rtcOccluded1(scene, &context, &ray);
+  return ray.tfar < 0;
+}
+
 constexpr std::size_t kPacket = 16;
-constexpr double kRoundingMm = 0.01;  // more than single precision moves anything in a cell
 
 /// Up to sixteen ways that begin at the places `which` of `from`; those of them that are blocked.
 template <class Blocked>
-void ask_packet(RTCScene scene, std::span<const Vec3> from, std::span<const std::size_t> which,
-                const Vec3& to, const Blocked& blocked) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+void ask_packet(RTCScene scene, RTCIntersectContext& context, std::span<const Vec3> from,
+                std::span<const std::size_t> which, const Vec3& to, const Blocked& blocked) {
   alignas(64) RTCRay16 rays;
   alignas(64) std::array<int, kPacket> valid;
   for (std::size_t i = 0; i < kPacket; ++i) {
@@ -126,25 +126,14 @@ struct RayScene::Tree {
 };
 
 RayScene::RayScene(std::span<const TriangleMesh> surfaces) : tree_(std::make_shared<Tree>(surfaces)) {
-  lowest_.setConstant(std::numeric_limits<double>::infinity());
-  highest_ = -lowest_;
-  for (const TriangleMesh& surface : surfaces) {
-    triangles_ += surface.triangles.size();
-    if (surface.empty()) continue;
-    for (const Vec3& vertex : surface.vertices) {
-      lowest_ = lowest_.cwiseMin(vertex);
-      highest_ = highest_.cwiseMax(vertex);
-    }
-  }
+  for (const TriangleMesh& surface : surfaces) triangles_ += surface.triangles.size();
 }
 
 bool RayScene::blocked(const Vec3& from, const Vec3& to) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  RTCRay ray = ray_between(from, to);
   const FlushDenormals flush;
-  rtcOccluded1(tree_->scene, &context, &ray);
-  return ray.tfar < 0;
+  return is_blocked(tree_->scene, context, from, to);
 }
 
 void RayScene::blocked(std::span<const Vec3> from, const Vec3& to, std::span<std::uint8_t> out) const {
@@ -154,9 +143,7 @@ void RayScene::blocked(std::span<const Vec3> from, const Vec3& to, std::span<std
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   const FlushDenormals flush;
   for (std::size_t i = 0; i < from.size(); ++i) {
-    RTCRay ray = ray_between(from[i], to);
-    rtcOccluded1(tree_->scene, &context, &ray);
-    out[i] = ray.tfar < 0 ? 1 : 0;
+    out[i] = is_blocked(tree_->scene, context, from[i], to) ? 1 : 0;
   }
 }
 
@@ -170,36 +157,20 @@ std::size_t RayScene::block_bundle(std::span<const Vec3> from, const Vec3& to, s
     marks[way] = 1;
     ++marked;
   };
-  if (marks[0] == 0 && blocked(from[0], to)) mark(0);
-
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   const FlushDenormals flush;
+  if (marks[0] == 0 && is_blocked(tree_->scene, context, from[0], to)) mark(0);
   std::array<std::size_t, kPacket> which{};
   std::size_t waiting = 0;
   for (std::size_t i = 1; i < from.size() && marked <= most; ++i) {
     if (marks[i] == 0) which[waiting++] = i;
     if (waiting < kPacket && i + 1 < from.size()) continue;
-    if (waiting > 0) ask_packet(tree_->scene, from, std::span(which).first(waiting), to, mark);
+    if (waiting > 0) ask_packet(tree_->scene, context, from, std::span(which).first(waiting), to, mark);
     waiting = 0;
   }
   return marked;
-}
-
-bool RayScene::out_of_reach(const Vec3& from, const Vec3& to, double beside_mm) const {
-  if (empty()) return true;
-  const double beside = beside_mm + kRoundingMm;
-  double enters = 0, leaves = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double low = lowest_(axis) - beside - from(axis), high = highest_(axis) + beside - from(axis);
-    const double way = to(axis) - from(axis);
-    if (way == 0) {
-      if (low > 0 || high < 0) return true;
-      continue;
-    }
-    const double a = low / way, b = high / way;
-    enters = std::max(enters, std::min(a, b));
-    leaves = std::min(leaves, std::max(a, b));
-  }
-  return enters > leaves;
 }
 
 std::optional<RayHit> RayScene::first_hit(const Vec3& from, const Vec3& to) const {

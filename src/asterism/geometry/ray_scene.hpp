@@ -22,7 +22,9 @@ struct RayHit {
 
 /// Surfaces made ready to be asked what lies between two points; a thin wrapper of Intel Embree (its robust
 /// mode, so no ray slips through an edge). Coordinates are rounded to single precision, 0.0002 mm at 3 m;
-/// what must not depend on one ray is asked by several. Asking is const and may be done by many threads.
+/// what must not depend on one ray is asked by several. Asking is const and may be done by many threads; the
+/// answer is the same on any number of them. Embree takes the instructions of the processor it runs on, so
+/// what lies within that rounding of an edge may be answered otherwise on another kind of processor.
 class RayScene {
  public:
   /// All in one frame. Empty surfaces are allowed and never hit.
@@ -46,17 +48,12 @@ class RayScene {
   std::size_t block_bundle(std::span<const Vec3> from, const Vec3& to, std::size_t most,
                            std::span<std::uint8_t> marks) const;
 
-  /// Can no way hit that stays within `beside_mm` of the line between the two points? By the box around all
-  /// surfaces: what is within reach of the box may still be free.
-  [[nodiscard]] bool out_of_reach(const Vec3& from, const Vec3& to, double beside_mm) const;
-
   [[nodiscard]] std::optional<RayHit> first_hit(const Vec3& from, const Vec3& to) const;
 
  private:
   struct Tree;
   std::shared_ptr<const Tree> tree_;
   std::size_t triangles_ = 0;
-  Vec3 lowest_ = Vec3::Zero(), highest_ = Vec3::Zero();  // corners of the box
 };
 
 /// The same question in double precision over all triangles, one by one (Möller & Trumbore 1997): slow and

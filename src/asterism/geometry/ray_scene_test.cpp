@@ -121,25 +121,6 @@ TEST(RayScene, AsksOfABundleNoMoreThanItMust) {
   EXPECT_EQ(scene.block_bundle({}, {0, 1, 50}, 0, {}), 0U);
 }
 
-TEST(RayScene, IsOutOfReachOnlyOfWhatCannotHit) {
-  EXPECT_TRUE(RayScene(TriangleMesh{}).out_of_reach({0, 0, 0}, {1, 1, 1}, 1000));
-  const RayScene flat(plate(100));
-  EXPECT_TRUE(flat.out_of_reach({60, 0, 0}, {60, 0, 200}, 9));
-  EXPECT_FALSE(flat.out_of_reach({60, 0, 0}, {60, 0, 200}, 11));
-  EXPECT_TRUE(flat.out_of_reach({0, 0, 0}, {0, 0, 90}, 9));
-  RandomStream random(7, 0);
-  const TriangleMesh mesh = rays::soup(5, random);
-  const RayScene scene(mesh);
-  int out = 0;
-  for (int i = 0; i < 20000; ++i) {
-    const rays::Way way = {rays::in_box(random, 1500), rays::in_box(random, 1500)};
-    if (!scene.out_of_reach(way.from, way.to, 0)) continue;
-    EXPECT_FALSE(scene.blocked(way.from, way.to));
-    ++out;
-  }
-  EXPECT_GT(out, 2000);
-}
-
 TEST(RayScene, AnswersManyThreadsAlike) {
   const TriangleMesh mesh = barrel();
   const RayScene scene(mesh);

@@ -25,7 +25,7 @@ Vec2 spread_point(int i, int count) {
 /// Where the rays of a target begin, in its carrier's frame. What has no normal or no diameter is a point,
 /// which stands proud towards the camera when there is no normal either.
 struct Occlusion::Face {
-  Vec3 middle;
+  Vec3 middle, normal;
   double radius_mm;
   std::vector<Vec3> starts;
 };
@@ -52,18 +52,20 @@ Occlusion::Occlusion(const Cell& cell, const OcclusionOptions& options) : rig_(c
   }
   for (const int carrier : carriers) {
     std::vector<std::size_t> members;
+    std::vector<Slabs> slabs;
     std::vector<TriangleMesh> surfaces;
     for (std::size_t i = 0; i < occluders.size(); ++i) {
       if (occluders[i].carrier != carrier || occluders[i].surface.empty()) continue;
       members.push_back(i);
+      slabs.push_back(slabs_of(occluders[i].surface));
       surfaces.push_back(std::move(occluders[i].surface));
     }
-    groups_.push_back({carrier, members, RayScene(surfaces)});
+    groups_.push_back({carrier, members, slabs, RayScene(surfaces)});
   }
 }
 
 Occlusion::Face Occlusion::face_of(const Target& target, const Vec3& normal) const {
-  Face face{target.position + options_.proud_mm * normal, target.imaged_radius_mm(), {}};
+  Face face{target.position + options_.proud_mm * normal, normal, target.imaged_radius_mm(), {}};
   if (face.radius_mm == 0) {
     face.starts = {face.middle};
     return face;
@@ -93,6 +95,13 @@ struct Occlusion::View {
     [[nodiscard]] Vec3 in_group(const Vec3& in_carrier) const {
       return moves_with_targets ? in_carrier : Vec3(group_from_carrier * in_carrier);
     }
+    [[nodiscard]] bool misses(const Face& face) const {
+      const Vec3 middle = in_group(face.middle);
+      const Vec3 normal = moves_with_targets ? face.normal : Vec3(group_from_carrier.rotation * face.normal);
+      return std::all_of(group->slabs.begin(), group->slabs.end(), [&](const Slabs& slabs) {
+        return out_of_reach(slabs, middle, normal, face.radius_mm, eye);
+      });
+    }
   };
   Vec3 eye;  // in the carrier's frame
   std::vector<Before> groups;
@@ -120,7 +129,7 @@ std::size_t Occlusion::blocked(const Face& face, const View& view, std::size_t m
   std::size_t marked = 0;
   for (const View::Before& before : view.groups) {
     const RayScene& tree = before.group->tree;
-    if (tree.out_of_reach(before.in_group(face.middle), before.eye, face.radius_mm)) continue;
+    if (before.misses(face)) continue;
     if (before.moves_with_targets) {
       marked = tree.block_bundle(face.starts, before.eye, most, marks);
     } else {

@@ -10,6 +10,7 @@
 #include "asterism/cell/occluders.hpp"
 #include "asterism/core/options.hpp"
 #include "asterism/geometry/ray_scene.hpp"
+#include "asterism/geometry/slabs.hpp"
 #include "asterism/visibility/visibility.hpp"
 
 namespace asterism {
@@ -59,6 +60,7 @@ class Occlusion {
   struct Group {
     int carrier;                       // a mover; −1 = the tracker
     std::vector<std::size_t> members;  // places in names_, by surface of the tree
+    std::vector<Slabs> slabs;          // of each
     RayScene tree;
   };
   struct Face;
