@@ -66,16 +66,16 @@ Prediction predicted(const MotionState& state, double time_s, const FilterOption
   return next;
 }
 
-namespace {
-
-/// The constant twist that leads from one pose to another.
-Vec6 twist_between(const RigidMotion& from, const RigidMotion& to, double dt) {
+Vec6 twist_between(const RigidMotion& from, const RigidMotion& to, double seconds) {
   const Quaternion back = from.rotation.conjugate();
   const Vec3 turn = log_rotation(back * to.rotation);
   Vec6 twist;
-  twist << turn / dt, left_jacobian(turn).inverse() * (back * (to.translation - from.translation)) / dt;
+  twist << turn / seconds,
+      left_jacobian(turn).inverse() * (back * (to.translation - from.translation)) / seconds;
   return twist;
 }
+
+namespace {
 
 Mat6 inverse_of_covariance(const Mat6& covariance) {
   const auto inverse = inverse_positive(covariance);

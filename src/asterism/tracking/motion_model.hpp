@@ -35,6 +35,9 @@ struct MotionState {
 [[nodiscard]] MotionState first_state(double time_s, const RigidMotion& measured, const Mat6& noise,
                                       const FilterOptions& options);
 
+/// The constant twist that leads from one pose to another.
+[[nodiscard]] Vec6 twist_between(const RigidMotion& from, const RigidMotion& to, double seconds);
+
 struct Prediction {
   MotionState state;
   Mat12 transition;  // ∂ its error / ∂ the error before
