@@ -140,9 +140,9 @@ ReadingUse FusedFilter::take_reading(Memory& memory, double time_s, const Platfo
 }
 
 FusedFilter::Outcome FusedFilter::take(Event event) {
-  // At equal times the tracker comes first, in whatever order they arrive.
+  // At equal times the reading comes first, in whatever order they arrive: the frame's pose then has it.
   const auto earlier = [](const Event& a, const Event& b) {
-    return a.time_s != b.time_s ? a.time_s < b.time_s : a.told.index() < b.told.index();
+    return a.time_s != b.time_s ? a.time_s < b.time_s : a.told.index() > b.told.index();
   };
   const auto place = recent_.insert(std::upper_bound(recent_.begin(), recent_.end(), event, earlier), event);
   Memory memory = place == recent_.begin() ? before_ : std::prev(place)->after;
@@ -189,7 +189,7 @@ std::vector<BodyPose> fused(std::span<const TimedPose> tracked, std::span<const 
   std::vector<BodyPose> poses;
   auto next = readings.begin();
   for (const auto& [time_s, pose] : tracked) {
-    for (; next != readings.end() && next->time_s - latency_s < time_s; ++next) {
+    for (; next != readings.end() && next->time_s - latency_s <= time_s; ++next) {
       static_cast<void>(filter.update_read_out(*next));
     }
     poses.push_back(filter.update_tracker(time_s, pose));

@@ -139,7 +139,7 @@ TEST(FusedFilter, HoldsThroughAnOcclusionWhatTheTrackerAloneLoses) {
     with += difference(fusion[last].estimate->tracker_from_body, run.truth[last]).tail<3>().norm() / 20;
     without += difference(alone[last].estimate->tracker_from_body, run.truth[last]).tail<3>().norm() / 20;
   }
-  EXPECT_LT(with, 0.5);  // mm
+  EXPECT_LT(with, 0.6);  // mm; one reading alone is off by 0.3 mm on average
   EXPECT_GT(without, 20.0);
 }
 
