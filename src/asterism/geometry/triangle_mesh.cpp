@@ -23,9 +23,11 @@ std::vector<Run> runs_of(const TriangleMesh& mesh) {
   std::vector<Run> runs;
   runs.reserve(3 * mesh.triangles.size());
   for (const auto& triangle : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
+    const bool is_line =
+        triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0];
+    for (std::size_t k = 0; k < 3 && !is_line; ++k) {
       const std::uint32_t a = triangle[k], b = triangle[(k + 1) % 3];
-      if (a != b) runs.push_back({std::min(a, b), std::max(a, b), a < b});
+      runs.push_back({std::min(a, b), std::max(a, b), a < b});
     }
   }
   std::sort(runs.begin(), runs.end(),
@@ -100,6 +102,11 @@ TriangleMesh moved(TriangleMesh mesh, const RigidMotion& a_from_b) {
 TriangleMesh scaled(TriangleMesh mesh, double factor) {
   require(factor > 0, "a surface is scaled by a positive factor");
   for (Vec3& vertex : mesh.vertices) vertex *= factor;
+  return mesh;
+}
+
+TriangleMesh flipped(TriangleMesh mesh) {
+  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
   return mesh;
 }
 

@@ -45,6 +45,8 @@ struct MeshFacts {
 
 [[nodiscard]] TriangleMesh moved(TriangleMesh mesh, const RigidMotion& a_from_b);
 [[nodiscard]] TriangleMesh scaled(TriangleMesh mesh, double factor);
+/// The same surface, its inside out.
+[[nodiscard]] TriangleMesh flipped(TriangleMesh mesh);
 /// Both surfaces in one.
 void append(TriangleMesh& mesh, const TriangleMesh& other);
 /// Corners in one place become one vertex: files such as STL tell each triangle by itself.
