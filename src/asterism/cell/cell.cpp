@@ -1,45 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "asterism/cell/cell.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
 
-#include "asterism/core/result.hpp"
-
 namespace asterism {
-namespace {
-
-void check_motion(const Motion& motion, const std::string& where) {
-  const auto* keyed = std::get_if<KeyedMotion>(&motion);
-  if (keyed == nullptr) return;
-  if (keyed->keys.empty()) throw InputError(where, "its motion has no poses");
-  for (std::size_t i = 1; i < keyed->keys.size(); ++i) {
-    if (keyed->keys[i].time_s > keyed->keys[i - 1].time_s) continue;
-    throw InputError(where, fmt::format("the times of its poses must increase; {} s follows {} s",
-                                        keyed->keys[i].time_s, keyed->keys[i - 1].time_s));
-  }
-}
-
-void check_carrier(const std::string& body, const Cell& cell, const std::string& where, const char* what) {
-  std::vector<std::string> names;
-  for (const Mover& mover : cell.movers) names.push_back(mover.body.name);
-  if (std::find(names.begin(), names.end(), body) != names.end()) return;
-  throw InputError(where, fmt::format("{} body `{}`, which is not there; bodies are: {}", what, body,
-                                      fmt::join(names, ", ")));
-}
-
-void check_obstacle(const Obstacle& obstacle, const Cell& cell, const std::string& where) {
-  const std::string here = fmt::format("{}: obstacle `{}`", where, obstacle.name);
-  if (!has_extent(obstacle.shape)) {
-    throw InputError(here, "its sizes must be positive");
-  }
-  if (!obstacle.body.empty()) check_carrier(obstacle.body, cell, here, "it moves with");
-}
-
-}  // namespace
-
 void describe(Sensor& sensor, OptionVisitor& visit) {
   visit.integer("bits", sensor.bits, {8, 16}, "grey depth of the images: 8 or 16");
   visit.number("full_well_e", sensor.full_well_e, {1, 1e9}, "electrons at full scale; sets the shot noise");
@@ -93,31 +57,6 @@ std::vector<Body> bodies_of(const Cell& cell) {
   std::vector<Body> bodies;
   for (const Mover& mover : cell.movers) bodies.push_back(mover.body);
   return bodies;
-}
-
-void check_cell(const Cell& cell, const std::string& where) {
-  check_rig(cell.rig, where);
-  check_bodies(bodies_of(cell), where);
-  for (const Mover& mover : cell.movers) {
-    check_motion(mover.motion, fmt::format("{}: body `{}`", where, mover.body.name));
-  }
-  for (const Obstacle& obstacle : cell.obstacles) check_obstacle(obstacle, cell, where);
-  Cell copy = cell;
-  LimitsCheck limits;
-  try {
-    describe(copy.sensor, limits);
-    describe(copy.light, limits);
-    describe(copy.timing, limits);
-  } catch (const InputError& error) {
-    throw InputError(where, error.what());
-  }
-  if (cell.sensor.bits != 8 && cell.sensor.bits != 16) {
-    throw InputError(where, fmt::format("`bits` is {}; it must be 8 or 16", cell.sensor.bits));
-  }
-  if (cell.volume) check_working_volume(*cell.volume, where);
-  if (!cell.layout) return;
-  check_layout_task(*cell.layout, where);
-  check_carrier(cell.layout->body, cell, where, "the layout task is for");
 }
 
 StereoRig rig_of(const CameraPair& pair) {

@@ -84,12 +84,18 @@ struct Cell {
   Verification verification;
 };
 
-/// Throws InputError for: a bad rig or body (check_rig, check_bodies), key times that do not increase, an
-/// obstacle without extent or on a body that is not there, options outside their limits, a working volume
-/// or layout task that is none.
+/// Throws InputError for: a bad rig or body (check_rig, check_bodies), key times that do not increase, a
+/// sweep that jumps, whatever names a body or target that is not there, an obstacle without extent, a solid
+/// without surface, too small or too large to be one (5 mm to 50 m) or with a target inside it, a platform
+/// that is moved beyond its stroke or rates, options outside their limits, a working volume or layout task
+/// that is none.
 void check_cell(const Cell& cell, const std::string& where);
 
 [[nodiscard]] std::vector<Body> bodies_of(const Cell& cell);
+
+/// What is allowed but worth a look, in words: surfaces of solids that are open, not manifold, or made of
+/// triangles that face different ways. They hide targets all the same.
+[[nodiscard]] std::vector<std::string> remarks_on(const Cell& cell);
 
 /// Two like cameras side by side, turned in so that their axes meet `range_mm` ahead of their middle.
 struct CameraPair {

@@ -3,6 +3,13 @@
 
 namespace asterism {
 
+void describe(Lamp& lamp, OptionVisitor& visit) {
+  visit.number("radius_mm", lamp.radius_mm, {0.01, 1e5}, "radius of the disc");
+  visit.number("level", lamp.level, {0, 1000}, "brightness, share of full scale; above 1 it saturates");
+  visit.number("halo_level", lamp.halo_level, {0, 100}, "stray light at its rim, share of full scale");
+  visit.number("halo_px", lamp.halo_px, {0.1, 1e4}, "distance over which the stray light falls to 1/e");
+}
+
 void describe(NoiseModel& noise, OptionVisitor& visit) {
   constexpr Limits kSigma = {0, 1e3};
   visit.number("sigma_px", noise.sigma_px, kSigma, "of a target's centre along each axis, 1 sigma");

@@ -31,6 +31,8 @@ struct Lamp {
   double halo_level = 0.1;  // of the stray light beside it, falling off with
   double halo_px = 60;      // this distance (1/e)
 };
+/// All but name and place.
+void describe(Lamp& lamp, OptionVisitor& visit);
 
 /// How wrong everything is that a prediction of accuracy must reckon with (1σ each); what `verify` draws anew
 /// for each disturbance run, and what each share of the error budget comes from.

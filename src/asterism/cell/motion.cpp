@@ -66,9 +66,18 @@ RigidMotion pose_of(const KeyedMotion& motion, double time_s) {
   return {(a.rotation * exp_rotation(phi)).normalized(), a.translation + shift};
 }
 
+/// Of the two, Rx Ry Rz is the inverse of Rz(−yaw) Ry(−pitch) Rx(−roll).
+Quaternion turn_of(const Sweep& sweep, double time_s) {
+  const double yaw = sweep.yaw.at(time_s), pitch = sweep.pitch.at(time_s), roll = sweep.roll.at(time_s);
+  if (sweep.order == TurnOrder::YawPitchRoll) return rotation_from_yaw_pitch_roll(yaw, pitch, roll);
+  return rotation_from_yaw_pitch_roll(-yaw, -pitch, -roll).conjugate();
+}
+
 RigidMotion pose_of(const Sweep& sweep, double time_s) {
-  const Quaternion turn =
-      rotation_from_yaw_pitch_roll(sweep.yaw.at(time_s), sweep.pitch.at(time_s), sweep.roll.at(time_s));
+  const bool before = sweep.from_s && time_s < *sweep.from_s;
+  const bool after = sweep.to_s && time_s > *sweep.to_s;
+  if (before || after) return sweep.tracker_from_rest;
+  const Quaternion turn = turn_of(sweep, time_s);
   RigidMotion rest_from_body = rotation_about(sweep.pivot_mm, turn);
   rest_from_body.translation += Vec3(sweep.x.at(time_s), sweep.y.at(time_s), sweep.z.at(time_s));
   return sweep.tracker_from_rest * rest_from_body;

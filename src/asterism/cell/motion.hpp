@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -17,13 +18,18 @@ struct Swing {
   [[nodiscard]] double at(double time_s) const;
 };
 
-/// To and fro about a place of rest: Rz(yaw) Ry(pitch) Rx(roll) about a pivot of the body, and along the
-/// body's axes at rest. The paper's platform sweeps ±15° this way.
+/// Which axis of a platform is carried by which: Rz(yaw) Ry(pitch) Rx(roll), or Rx(roll) Ry(pitch) Rz(yaw).
+enum class TurnOrder { YawPitchRoll, RollPitchYaw };
+
+/// To and fro about a place of rest: turned about a pivot of the body, and along the body's axes at rest.
+/// The paper's platform sweeps ±15° this way.
 struct Sweep {
   RigidMotion tracker_from_rest;
   Vec3 pivot_mm = Vec3::Zero();  // in the body's frame
   Swing yaw, pitch, roll;        // rad
   Swing x, y, z;                 // mm
+  TurnOrder order = TurnOrder::YawPitchRoll;
+  std::optional<double> from_s, to_s;  // at rest before and after
 };
 
 struct KeyPose {

@@ -80,6 +80,30 @@ TEST(Sweep, TurnsAboutItsPivotByTheStatedAngles) {
   EXPECT_LT(difference(pose_at(sweep, 0), sweep.tracker_from_rest).norm(), 1e-9);
 }
 
+TEST(Sweep, TurnsInTheOrderItIsTold) {
+  Sweep sweep;
+  sweep.order = TurnOrder::RollPitchYaw;
+  sweep.yaw = {0.3, 0, 1};
+  sweep.pitch = {0.2, 0, 1};
+  sweep.roll = {0.1, 0, 1};
+  const double peak = std::sin(1.0);
+  const Quaternion expected =
+      exp_rotation({0.1 * peak, 0, 0}) * exp_rotation({0, 0.2 * peak, 0}) * exp_rotation({0, 0, 0.3 * peak});
+  EXPECT_LT(rotation_angle(pose_at(sweep, 0).rotation, expected), 1e-12);
+}
+
+TEST(Sweep, IsAtRestOutsideItsTime) {
+  Sweep sweep;
+  sweep.tracker_from_rest = {exp_rotation({0, 1, 0}), {0, 0, 2000}};
+  sweep.roll = {0.2, 0.5, 0};
+  sweep.from_s = 2;
+  sweep.to_s = 4;
+  for (const double t : {-1.0, 1.5, 4.5}) {
+    EXPECT_EQ(difference(pose_at(sweep, t), sweep.tracker_from_rest).norm(), 0) << t;
+  }
+  EXPECT_GT(difference(pose_at(sweep, 2.5), sweep.tracker_from_rest).norm(), 0.1);
+}
+
 TEST(PosesBetween, TakesTheFirstAndTheLastMoment) {
   Sweep sweep;
   sweep.x = {100, 0.25, 0};

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "asterism/cell/paper_layouts.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 namespace asterism {
 
 const std::vector<PublishedLayout>& paper_table1() {
@@ -32,6 +36,17 @@ const std::vector<PublishedLayout>& paper_table9() {
       {"Table 9 S4", {{220, 220, 580}, {220, -220, 590}, {-220, 220, 595}, {-220, -220, 605}}},
       {"Table 9 S5", {{600, 100, 610}, {100, 600, 600}, {-600, -100, 590}, {-100, -600, 620}}}};
   return layouts;
+}
+
+std::vector<Target> targets_of(const PublishedLayout& layout, double tilt_rad, double diameter_mm) {
+  std::vector<Target> targets;
+  for (const Vec3& place : layout.targets) {
+    Vec3 outwards(place.x(), place.y(), 0);
+    if (outwards.norm() > 0) outwards.normalize();
+    const Vec3 normal = std::sin(tilt_rad) * outwards + Vec3(0, 0, std::cos(tilt_rad));
+    targets.push_back({fmt::format("P{}", targets.size() + 1), place, normal.normalized(), diameter_mm, {}});
+  }
+  return targets;
 }
 
 std::vector<std::vector<Vec3>> places_of(const std::vector<PublishedLayout>& layouts) {

@@ -18,6 +18,7 @@ struct Scanner {
   double field_width_mm = 350, field_height_mm = 310;  // at the stand-off
   double max_incidence_deg = 60;
 };
+/// All but its pose.
 void describe(Scanner& scanner, OptionVisitor& visit);
 
 }  // namespace asterism

@@ -16,6 +16,7 @@ struct Verification {
   double nominal_mm = 0.025;      // the tracker's nominal accuracy, told beside it
   std::vector<WorkPoint> points;  // none: the layout task's; none there either: corners of the part's box
 };
+/// All but its points.
 void describe(Verification& verification, OptionVisitor& visit);
 
 }  // namespace asterism
