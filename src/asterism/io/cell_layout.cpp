@@ -4,21 +4,18 @@
 #include <fmt/format.h>
 
 #include "asterism/io/cell_parts.hpp"
+#include "asterism/io/cell_tables.hpp"
 #include "asterism/io/cell_text.hpp"
 
 namespace asterism {
 namespace {
 
-using namespace cell_keys;
-
 CylinderSide side_of(const CellSection& section) {
-  section.only(both(kPatch, kCylinderSide));
   return {section.vector_or_zero("base_mm"), section.number("radius_mm"), section.number("height_mm"),
           rad_from_deg(section.number_or("from_deg", 0)), rad_from_deg(section.number_or("to_deg", 360))};
 }
 
 Annulus annulus_of(const CellSection& section) {
-  section.only(both(kPatch, kAnnulus));
   return {section.vector_or_zero("centre_mm"), section.number_or("inner_radius_mm", 0),
           section.number("outer_radius_mm"), rad_from_deg(section.number_or("from_deg", 0)),
           rad_from_deg(section.number_or("to_deg", 360))};
@@ -26,28 +23,20 @@ Annulus annulus_of(const CellSection& section) {
 
 RigidMotion pose_in_body(const CellSection& section) {
   if (!section.has("pose")) return {};
-  const CellSection pose = section.section("pose", "a pose in the body");
-  pose.only(kPoseInBody);
-  return plain_pose(pose);
+  return plain_pose(section.section("pose", "a pose"));
 }
 
 NamedPatch patch_of(const CellSection& section) {
-  NamedPatch named;
-  const std::string kind = section.word("kind", kPatches);
-  if (kind == "cylinder-side") {
-    named.patch = side_of({section.file, section.table, "a cylinder-side"});
-  } else if (kind == "annulus") {
-    named.patch = annulus_of({section.file, section.table, "an annulus"});
-  } else if (kind == "plate") {
-    section.only(both(kPatch, kPlate));
-    named.patch = Plate{pose_in_body(section), section.number("width_mm"), section.number("height_mm")};
-  } else {
-    section.only(both(kPatch, kCylinderRoom));
-    named.patch = CylinderRoom{section.vector_or_zero("base_mm"), section.number("radius_mm"),
-                               section.number("height_mm"), rad_from_deg(section.number_or("tilt_deg", 0))};
+  const std::string kind = section.word("kind", words_of(forms::patches(), "kind"));
+  section.must_be(form_of(forms::patches(), "kind", kind));
+  const std::string name = section.text("name");
+  if (kind == "cylinder-side") return {name, side_of(section)};
+  if (kind == "annulus") return {name, annulus_of(section)};
+  if (kind == "plate") {
+    return {name, Plate{pose_in_body(section), section.number("width_mm"), section.number("height_mm")}};
   }
-  named.name = section.text("name");
-  return named;
+  return {name, CylinderRoom{section.vector_or_zero("base_mm"), section.number("radius_mm"),
+                             section.number("height_mm"), rad_from_deg(section.number_or("tilt_deg", 0))}};
 }
 
 std::string angles_of(double from_rad, double to_rad) {
@@ -77,32 +66,28 @@ std::string text_of(const CylinderRoom& room) {
 }  // namespace
 
 WorkingVolume working_volume_of(const CellSection& section) {
-  WorkingVolume volume;
   if (section.has("preset")) {
-    section.only({"preset"});
-    return working_volume_of(section.word("preset", working_volume_presets()));
+    section.must_be(forms::volume_preset());
+    return working_volume_of(section.text("preset"));
   }
-  const auto describing = describing_options(volume);
-  section.only(both(option_names(describing), {"preset"}));
-  read_options_of(section, describing);
+  section.must_be(forms::volume());
+  WorkingVolume volume;
+  read_options_of(section, describing_options(volume));
   return volume;
 }
 
 LayoutTask layout_task_of(const CellSection& section) {
+  section.must_be(forms::layout());
   LayoutTask task;
-  const auto describing = describing_options(task);
-  section.only(both(option_names(describing), kLayoutLists));
-  read_options_of(section, describing);
+  read_options_of(section, describing_options(task));
   for (const CellSection& patch : section.sections("patch", "a patch")) {
     task.surface.patches.push_back(patch_of(patch));
   }
   for (const CellSection& one : section.sections("keep_out", "a keep-out")) {
-    task.surface.keep_outs.push_back({one.text("name"), shape_of(one, kKeepOut), pose_in_body(one)});
+    const Shape shape = shape_of(one, forms::keep_out());
+    task.surface.keep_outs.push_back({one.text("name"), shape, pose_in_body(one)});
   }
-  for (const CellSection& point : section.sections("point", "a point")) {
-    point.only(kPoint);
-    task.points.push_back({point.text("name"), point.vector("position_mm")});
-  }
+  task.points = points_of(section);
   return task;
 }
 

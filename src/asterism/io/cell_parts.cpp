@@ -5,14 +5,12 @@
 
 namespace asterism {
 
-using namespace cell_keys;
-
-Keys both(Keys first, const Keys& second) {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
+RigidMotion plain_pose(const CellSection& section) {
+  section.must_be(forms::pose_in_body());
+  return pose_of_numbers(section);
 }
 
-RigidMotion plain_pose(const CellSection& section) {
+RigidMotion pose_of_numbers(const CellSection& section) {
   RigidMotion pose;
   pose.translation = section.vector_or_zero("position_mm");
   if (section.has("yaw_pitch_roll_deg")) {
@@ -31,17 +29,13 @@ RigidMotion plain_pose(const CellSection& section) {
   return pose;
 }
 
-Shape shape_of(const CellSection& section, const cell_keys::Keys& beside) {
-  const std::string kind = section.word("shape", kShapes);
-  if (kind == "box") {
-    section.only(both(beside, kBox));
-    return Box{section.vector("size_mm")};
-  }
+Shape shape_of(const CellSection& section, const Form& with) {
+  const std::string kind = section.word("shape", words_of(forms::shapes(), "shape"));
+  section.must_be(form_of(forms::shaped(with), "shape", kind));
+  if (kind == "box") return Box{section.vector("size_mm")};
   if (kind == "capsule") {
-    section.only(both(beside, kCapsule));
     return Capsule{section.vector("from_mm"), section.vector("to_mm"), section.number("radius_mm")};
   }
-  section.only(both(beside, kFrustum));
   return Frustum{section.number("bottom_radius_mm"), section.number("top_radius_mm"),
                  section.number("height_mm")};
 }

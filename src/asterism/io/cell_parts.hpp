@@ -4,21 +4,20 @@
 #include <functional>
 
 #include "asterism/cell/shape.hpp"
-#include "asterism/io/cell_keys.hpp"
+#include "asterism/io/cell_forms.hpp"
 #include "asterism/io/cell_section.hpp"
 
 // What several tables of a cell file are made of. For .cpp files only.
 
 namespace asterism {
 
-/// The keys of two lists.
-[[nodiscard]] cell_keys::Keys both(cell_keys::Keys first, const cell_keys::Keys& second);
-
-/// A pose by position and angles or quaternion; what is absent is zero. Does not ask for unknown keys.
+/// A pose by position and angles or quaternion; what is absent is zero.
 [[nodiscard]] RigidMotion plain_pose(const CellSection& section);
+/// The same from a table whose keys were looked at before.
+[[nodiscard]] RigidMotion pose_of_numbers(const CellSection& section);
 
-/// A solid by its `shape`; other keys than its own and those `beside` are refused.
-[[nodiscard]] Shape shape_of(const CellSection& section, const cell_keys::Keys& beside);
+/// A solid by its `shape`; `with` has the other keys of its table.
+[[nodiscard]] Shape shape_of(const CellSection& section, const Form& with);
 
 template <class Options>
 std::function<void(OptionVisitor&)> describing_options(Options& options) {

@@ -11,18 +11,6 @@
 namespace asterism {
 namespace {
 
-class NameLister : public OptionVisitor {
- public:
-  std::vector<std::string> names;
-  void number(std::string_view name, double&, Limits, std::string_view) override { names.emplace_back(name); }
-  void integer(std::string_view name, int&, Limits, std::string_view) override { names.emplace_back(name); }
-  void flag(std::string_view name, bool&, std::string_view) override { names.emplace_back(name); }
-  void text(std::string_view name, std::string&, std::string_view) override { names.emplace_back(name); }
-  void choice(std::string_view name, int&, const std::vector<std::string>&, std::string_view) override {
-    names.emplace_back(name);
-  }
-};
-
 class SectionReader : public OptionVisitor {
  public:
   explicit SectionReader(const CellSection& section) : section_(section) {}
@@ -37,9 +25,7 @@ class SectionReader : public OptionVisitor {
   }
   void flag(std::string_view name, bool& value, std::string_view) override {
     if (!section_.has(std::string(name))) return;
-    const auto given = section_.needed(std::string(name)).value_exact<bool>();
-    if (!given) refuse(name, "must be true or false");
-    value = *given;
+    value = section_.flag(std::string(name));
   }
   void text(std::string_view name, std::string& value, std::string_view) override {
     if (section_.has(std::string(name))) value = section_.text(std::string(name));
@@ -69,7 +55,61 @@ class SectionReader : public OptionVisitor {
   const CellSection& section_;
 };
 
+/// Reads what stands there as what the form says it is, for the complaint alone.
+void check_key(const CellSection& section, const Key& key) {
+  switch (key.holds) {
+    case Holds::Number:
+      static_cast<void>(section.number(key.name));
+      return;
+    case Holds::Whole: {
+      const double given = section.number(key.name);
+      if (given == std::floor(given) && std::abs(given) < 1e9) return;
+      throw InputError(toml_place(section.file, section.needed(key.name)),
+                       fmt::format("`{}` must be a whole number", key.name));
+    }
+    case Holds::Flag:
+      static_cast<void>(section.flag(key.name));
+      return;
+    case Holds::Text:
+      static_cast<void>(section.text(key.name));
+      return;
+    case Holds::Word:
+      static_cast<void>(section.word(key.name, key.words));
+      return;
+    case Holds::Numbers:
+      static_cast<void>(section.numbers(key.name, key.count));
+      return;
+    case Holds::Table:
+      static_cast<void>(section.section(key.name, ""));
+      return;
+    case Holds::Tables:
+      static_cast<void>(section.sections(key.name, ""));
+      return;
+  }
+}
+
 }  // namespace
+
+void CellSection::must_be(const Form& form) const {
+  refuse_unknown_keys(file, table, form.of, form.names());
+  for (const Key& key : form.keys) {
+    if (has(key.name)) {
+      check_key(*this, key);
+    } else if (key.needed) {
+      refuse(fmt::format("{} has no `{}`", form.of, key.name));
+    }
+  }
+}
+
+void CellSection::only_keys_of(const std::vector<Form>& forms) const {
+  std::vector<std::string> known;
+  for (const Form& form : forms) {
+    for (std::string& name : form.names()) {
+      if (std::find(known.begin(), known.end(), name) == known.end()) known.push_back(std::move(name));
+    }
+  }
+  refuse_unknown_keys(file, table, of, known);
+}
 
 void CellSection::refuse(const std::string& what) const { throw InputError(toml_place(file, table), what); }
 
@@ -82,6 +122,11 @@ double CellSection::number(const std::string& key) const { return toml_number(fi
 
 double CellSection::number_or(const std::string& key, double otherwise) const {
   return has(key) ? number(key) : otherwise;
+}
+
+bool CellSection::flag(const std::string& key) const {
+  if (const auto given = needed(key).value_exact<bool>()) return *given;
+  throw InputError(toml_place(file, needed(key)), fmt::format("`{}` must be true or false", key));
 }
 
 std::string CellSection::text(const std::string& key) const { return toml_text(file, needed(key), key); }
@@ -127,12 +172,6 @@ std::vector<CellSection> CellSection::sections(const std::string& key, const std
   }
   for (const toml::node& one : *array) inner.push_back({file, *one.as_table(), inner_of});
   return inner;
-}
-
-std::vector<std::string> option_names(const std::function<void(OptionVisitor&)>& describe) {
-  NameLister lister;
-  describe(lister);
-  return lister.names;
 }
 
 void read_options_of(const CellSection& section, const std::function<void(OptionVisitor&)>& describe) {

@@ -5,6 +5,7 @@
 
 #include "asterism/core/options.hpp"
 #include "asterism/geometry/types.hpp"
+#include "asterism/io/cell_forms.hpp"
 #include "asterism/io/toml_file.hpp"
 
 namespace asterism {
@@ -15,7 +16,10 @@ struct CellSection {
   const toml::table& table;
   std::string of;  // "a sweep"
 
-  void only(const std::vector<std::string>& keys) const { refuse_unknown_keys(file, table, of, keys); }
+  /// Complains of the first unknown key, of a wrong type, of what is needed and not there.
+  void must_be(const Form& form) const;
+  /// Complains of a key that none of the forms knows; for tables whose form is told by a key.
+  void only_keys_of(const std::vector<Form>& forms) const;
   [[nodiscard]] bool has(const std::string& key) const { return table.contains(key); }
   [[noreturn]] void refuse(const std::string& what) const;
   /// Complains when the key is not there.
@@ -23,6 +27,7 @@ struct CellSection {
 
   [[nodiscard]] double number(const std::string& key) const;
   [[nodiscard]] double number_or(const std::string& key, double otherwise) const;
+  [[nodiscard]] bool flag(const std::string& key) const;
   [[nodiscard]] std::string text(const std::string& key) const;
   [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t count) const;
   [[nodiscard]] Vec3 vector(const std::string& key) const;
@@ -34,8 +39,7 @@ struct CellSection {
   [[nodiscard]] std::vector<CellSection> sections(const std::string& key, const std::string& inner_of) const;
 };
 
-/// The names of an options struct, and its values from a table (unknown keys are not its business).
-[[nodiscard]] std::vector<std::string> option_names(const std::function<void(OptionVisitor&)>& describe);
+/// The values of an options struct from a table (unknown keys are not its business).
 void read_options_of(const CellSection& section, const std::function<void(OptionVisitor&)>& describe);
 
 }  // namespace asterism

@@ -5,6 +5,7 @@
 #include "asterism/io/cell_file.hpp"
 #include "asterism/io/cell_layout.hpp"
 #include "asterism/io/cell_text.hpp"
+#include "asterism/io/mesh_file.hpp"
 
 namespace asterism {
 namespace {
@@ -30,8 +31,11 @@ std::string text_of(const Sweep& sweep) {
                                  toml_of(sweep.tracker_from_rest), toml_of(sweep.pivot_mm));
   text += swing_line("yaw", sweep.yaw, true) + swing_line("pitch", sweep.pitch, true) +
           swing_line("roll", sweep.roll, true);
-  return text + swing_line("x", sweep.x, false) + swing_line("y", sweep.y, false) +
-         swing_line("z", sweep.z, false);
+  text += swing_line("x", sweep.x, false) + swing_line("y", sweep.y, false) + swing_line("z", sweep.z, false);
+  if (sweep.order == TurnOrder::RollPitchYaw) text += "order = \"roll-pitch-yaw\"\n";
+  if (sweep.from_s) text += fmt::format("from_s = {}\n", *sweep.from_s);
+  if (sweep.to_s) text += fmt::format("to_s = {}\n", *sweep.to_s);
+  return text;
 }
 
 std::string text_of(const KeyedMotion& motion) {
@@ -91,10 +95,72 @@ class LineWriter : public OptionVisitor {
 };
 
 template <class Options>
-std::string part(const char* key, Options options) {
+std::string lines_of(Options options) {
   LineWriter writer;
   describe(options, writer);
-  return fmt::format("\n[{}]\n{}", key, writer.lines);
+  return writer.lines;
+}
+
+template <class Options>
+std::string part(const char* key, const Options& options) {
+  return fmt::format("\n[{}]\n{}", key, lines_of(options));
+}
+
+std::string text_of(const Platform& platform) {
+  return fmt::format("\n[platform]\nbody = {}\npivot_mm = {}\n", toml_of(platform.body),
+                     toml_of(platform.pivot_mm)) +
+         part("platform.stroke", platform.stroke) + part("platform.read_out", platform.read_out);
+}
+
+/// A solid's lines; its surface goes into a file of its own.
+std::string text_of(const Solid& solid, const std::filesystem::path& mesh) {
+  write_ply(mesh, *solid.surface);
+  std::string text =
+      fmt::format("name = {}\nbody = {}\nmesh = {}\nunit = \"mm\"\npose = {}\n", toml_of(solid.name),
+                  toml_of(solid.body), toml_of(mesh.filename().string()), toml_of(solid.carrier_from_solid));
+  if (solid.level) text += fmt::format("level = {}\n", *solid.level);
+  return text;
+}
+
+/// The part and what else hides targets by its mesh; CELL.workpiece.ply, CELL.fixture-1.ply … hold the
+/// meshes.
+std::string solids_of(const Cell& cell, const std::filesystem::path& file) {
+  const auto mesh = [&](const std::string& of) {
+    return file.parent_path() / fmt::format("{}.{}.ply", file.stem().string(), of);
+  };
+  std::string text;
+  if (cell.workpiece) text += "\n[workpiece]\n" + text_of(*cell.workpiece, mesh("workpiece"));
+  for (std::size_t i = 0; i < cell.fixtures.size(); ++i) {
+    text += "\n[[fixture]]\n" + text_of(cell.fixtures[i], mesh(fmt::format("fixture-{}", i + 1)));
+  }
+  return text;
+}
+
+std::string text_of(const Scanner& scanner) {
+  return part("scanner", scanner) + fmt::format("pose = {}\n", toml_of(scanner.body_from_scanner));
+}
+
+std::string text_of(const TargetFault& fault) {
+  std::string text = fmt::format("\n[[fault]]\nkind = \"{}\"\nbody = {}\ntarget = {}\ntime_s = {}\n",
+                                 fault.kind == FaultKind::Knocked ? "knocked" : "falls-off",
+                                 toml_of(fault.body), toml_of(fault.target), fault.time_s);
+  if (fault.kind == FaultKind::Knocked) text += fmt::format("shift_mm = {}\n", toml_of(fault.shift_mm));
+  return text;
+}
+
+std::string text_of(const Lamp& lamp) {
+  return fmt::format("\n[[lamp]]\nname = {}\nposition_mm = {}\n", toml_of(lamp.name),
+                     toml_of(lamp.in_tracker_mm)) +
+         lines_of(lamp);
+}
+
+std::string text_of(const Verification& verification) {
+  std::string text = part("verify", verification);
+  for (const WorkPoint& point : verification.points) {
+    text += fmt::format("\n[[verify.point]]\nname = {}\nposition_mm = {}\n", toml_of(point.name),
+                        toml_of(point.in_body_mm));
+  }
+  return text;
 }
 
 }  // namespace
@@ -104,9 +170,16 @@ void write_cell(const std::filesystem::path& file, const Cell& cell) {
       "name = {}\n\n[tracker]\nright_from_left = {}\n\n[tracker.left]\n{}\n[tracker.right]\n{}",
       toml_of(cell.name), toml_of(cell.rig.right_from_left), text_of(cell.rig.left), text_of(cell.rig.right));
   if (cell.volume) text += part("tracker.volume", *cell.volume);
-  text += part("sensor", cell.sensor) + part("light", cell.light) + part("timing", cell.timing);
+  text += part("sensor", cell.sensor) + part("light", cell.light) + part("timing", cell.timing) +
+          part("noise", cell.noise);
   for (const Mover& mover : cell.movers) text += text_of(mover);
   for (const Obstacle& obstacle : cell.obstacles) text += text_of(obstacle);
+  if (cell.platform) text += text_of(*cell.platform);
+  text += solids_of(cell, file);
+  if (cell.scanner) text += text_of(*cell.scanner);
+  for (const TargetFault& fault : cell.faults) text += text_of(fault);
+  for (const Lamp& lamp : cell.lamps) text += text_of(lamp);
+  text += text_of(cell.verification);
   if (cell.layout) text += part("layout", *cell.layout) + lists_of(*cell.layout);
   write_file(file, text);
 }
