@@ -30,5 +30,6 @@ void add_simulate(CLI::App& root, Common& common);
 void add_body(CLI::App& root, Common& common);
 void add_reproduce(CLI::App& root, Common& common);
 void add_layout(CLI::App& root, Common& common);
+void add_schema(CLI::App& root, Common& common);
 
 }  // namespace asterism::app
