@@ -180,7 +180,7 @@ export function cell({ frames = 60, sides = 36, longest = 150, tilts = 13 } = {}
     return {
       name, position_mm, predicted_mm: sigmas.map((s) => s && Math.hypot(...s)),
       covariance_mm2: sigmas.map((s) => s && [s[0] ** 2, 0, 0.3 * s[0] * s[2], s[1] ** 2, 0.2 * s[1] * s[2], s[2] ** 2]),
-      measured_mm: sigmas.map((s) => s && Math.hypot(...s.map((v) => v * normal()))),
+      measured_mm: sigmas.map((s) => s && Math.hypot(...s.map((v) => v * normal()))), without_mm: [],
     };
   });
   const grid = Array.from({ length: tilts }, (_, i) => -15 + (30 * i) / (tilts - 1));

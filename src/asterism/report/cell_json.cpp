@@ -112,7 +112,8 @@ Json json_of_point_errors(const CellReport::PointErrors& point) {
           {"position_mm", json_of(point.in_body)},
           {"predicted_mm", json_of_column(point.predicted_mm)},
           {"covariance_mm2", covariances},
-          {"measured_mm", json_of_column(point.measured_mm)}};
+          {"measured_mm", json_of_column(point.measured_mm)},
+          {"without_mm", json_of_column(point.without_mm)}};
 }
 
 Json json_of_heat(const CellReport::Heat& heat) {

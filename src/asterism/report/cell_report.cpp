@@ -49,6 +49,8 @@ void check(const CellReport& report) {
             "a point has a covariance a frame or none");
     require(is_by_frame_or_empty(report, point.measured_mm.size()),
             "a point has a measured error a frame or none");
+    require(is_by_frame_or_empty(report, point.without_mm.size()),
+            "a point has an error without targets a frame or none");
   }
   require(is_by_frame(report, report.visible.size()), "the visible count has a value a frame");
   for (const std::size_t size :

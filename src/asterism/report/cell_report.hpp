@@ -66,6 +66,7 @@ struct CellReport {
     std::vector<double> predicted_mm;        // √tr Σ by frame; NaN: not determined
     std::vector<Mat3> predicted_covariance;  // mm², along the tracker's axes
     std::vector<double> measured_mm;         // simulated, tracked, compared; NaN: no pose; empty: not done
+    std::vector<double> without_mm = {};     // the platform's own read-out here; empty = not known here
   };
 
   std::string title, subtitle;
@@ -83,7 +84,9 @@ struct CellReport {
   std::vector<PointErrors> points;
   std::vector<double> predicted_rotation_deg, measured_rotation_deg;  // by frame; may be empty
   std::string status;  // a letter a frame as in a tracking report; empty = not tracked
-  std::vector<double> without_mm, without_deg;  // the platform's own read-out, by frame; may be empty
+  /// The platform's own read-out, by frame, at the centroid of the targets; may be empty. A page shows it at
+  /// the points that have none of their own.
+  std::vector<double> without_mm, without_deg;
   double tolerance_mm = 0.25, nominal_mm = 0.025;
   struct Heat {
     std::string title, x_label, y_label, value_label;

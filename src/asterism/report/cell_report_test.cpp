@@ -87,6 +87,7 @@ TEST(CellReportJson, SaysNothingWhereNothingIsDetermined) {
   const Json& point = json["points"][0];
   EXPECT_EQ(point["predicted_mm"], Json({3.316, nullptr}));
   EXPECT_EQ(point["covariance_mm2"], Json::parse("[[1, 2, 3, 4, 5, 6], null]"));
+  EXPECT_EQ(point["without_mm"], Json::array());
   EXPECT_EQ(json["coverage"], Json({0.75, nullptr}));
   EXPECT_EQ(json["heats"][0]["value"], Json::parse("[[6, null]]"));
   EXPECT_EQ(json["tables"][0]["rows"], Json::parse(R"([["a", 1.5], ["b", null]])"));
@@ -136,6 +137,7 @@ TEST(CellReportJson, HoldsThatLengthsAgree) {
   refuses([](CellReport& r) { r.axes[0].carrier = -2; });
   refuses([](CellReport& r) { r.points[0].predicted_mm.push_back(0); });
   refuses([](CellReport& r) { r.points[0].measured_mm.push_back(0); });
+  refuses([](CellReport& r) { r.points[0].without_mm.push_back(0); });
   refuses([](CellReport& r) { r.visible.clear(); });
   refuses([](CellReport& r) { r.status = "O"; });
   refuses([](CellReport& r) { r.heats[0].value[0].pop_back(); });

@@ -33,8 +33,8 @@ function report(): CellReport {
     solids: [{ name: 'casing', role: 'workpiece', carrier: 0, vertices: 'AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA', triangles: 'AAAAAAEAAAACAAAA', error_mm: [0.1, null, 0.3] }],
     axes: [{ name: 'O_g workpiece', carrier: 0, pose: [0, 0, 5, kHalf, 0, 0, kHalf] }], body: 0, visible: [1, 1], coverage: [0.8, 0.5],
     points: [
-      { name: 'near', position_mm: [0, 0, 0], predicted_mm: [0.05, null], covariance_mm2: [[1e-4, 0, 0, 4e-4, 0, 9e-4], null], measured_mm: [0.04, null] },
-      { name: 'far', position_mm: [0, 0, 500], predicted_mm: [0.3, 0.2], covariance_mm2: [null, null], measured_mm: [] },
+      { name: 'near', position_mm: [0, 0, 0], predicted_mm: [0.05, null], covariance_mm2: [[1e-4, 0, 0, 4e-4, 0, 9e-4], null], measured_mm: [0.04, null], without_mm: [] },
+      { name: 'far', position_mm: [0, 0, 500], predicted_mm: [0.3, 0.2], covariance_mm2: [null, null], measured_mm: [], without_mm: [0.5, 0.6] },
     ],
     predicted_rotation_deg: [0.01, 0.02], measured_rotation_deg: [], status: 'OL', without_mm: [0.3, 0.4], without_deg: [], tolerance_mm: 0.25, nominal_mm: 0.025,
     heats: [], tables: [], charts: [],
@@ -139,7 +139,8 @@ describe('the series of a cell', () => {
     expect(figures[0].note).toContain('2 of 2 frames');
     expect(figures[2].limits!.map((limit) => limit.value)).toEqual([0.25, 0.025]);
     expect(figures[2].note).toContain('1 of 1 measured errors');
-    expect(figures[2].traces.map((trace) => trace.label)).toEqual(['predicted √tr Σ', 'measured', 'without targets']);
+    expect(figures[2].traces.map((trace) => trace.label)).toEqual(['predicted √tr Σ', 'measured', 'without targets, at their centroid']);
+    expect(cellFigures(cell, now)[2].traces[1]).toMatchObject({ label: 'without targets', values: [0.5, 0.6] });
     expect(svgOf(figures[2], () => '#000')).toContain('tolerance');
   });
   it('keep above zero on a logarithmic axis', () => {

@@ -26,11 +26,11 @@ export function cellAsCsv(report: CellReport): string {
   const body = report.bodies[report.body];
   const bounds = report.points.map(bound95);
   const header = ['time_s', ...['x_mm', 'y_mm', 'z_mm', 'qw', 'qx', 'qy', 'qz'], 'visible', 'coverage', 'status',
-    ...report.points.flatMap(({ name }) => [`${name} predicted_mm`, `${name} bound95_mm`, `${name} measured_mm`]),
+    ...report.points.flatMap(({ name }) => [`${name} predicted_mm`, `${name} bound95_mm`, `${name} measured_mm`, `${name} without_mm`]),
     'predicted_rotation_deg', 'measured_rotation_deg', 'without_mm', 'without_deg', ...body.targets.map((target) => `sight ${target.id}`)];
   return csv(header, report.time_s.map((time, i) => [
     time, ...body.pose[i], report.visible[i], report.coverage[i], kStatuses[report.status[i] as Status]?.word ?? '',
-    ...report.points.flatMap((point, p) => [point.predicted_mm[i], bounds[p][i], point.measured_mm[i]]),
+    ...report.points.flatMap((point, p) => [point.predicted_mm[i], bounds[p][i], point.measured_mm[i], point.without_mm[i]]),
     report.predicted_rotation_deg[i], report.measured_rotation_deg[i], report.without_mm[i], report.without_deg[i],
     ...body.targets.map((_, t) => targetWords(body, t, i, report.solids)),
   ]));

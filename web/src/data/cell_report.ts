@@ -30,6 +30,7 @@ export interface CellPoint {
   predicted_mm: (number | null)[];    // √tr Σ, by frame; null: not determined
   covariance_mm2: (number[] | null)[];  // xx xy xz yy yz zz along the tracker's axes, by frame
   measured_mm: (number | null)[];     // simulated, tracked, compared with the truth; null: no pose; empty: not done
+  without_mm: (number | null)[];      // the platform's own read-out here; empty: not known here
 }
 
 export interface CellHeat {
@@ -72,7 +73,7 @@ export interface CellReport {
   predicted_rotation_deg: (number | null)[];
   measured_rotation_deg: (number | null)[];
   status: string;               // a letter a frame (status.ts); empty = not tracked
-  without_mm: (number | null)[];
+  without_mm: (number | null)[];  // the platform's own read-out at the centroid of the targets; empty = none
   without_deg: (number | null)[];
   tolerance_mm: number;
   nominal_mm: number;

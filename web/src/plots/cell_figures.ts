@@ -47,7 +47,8 @@ function pointFigure(report: CellReport, axis: Figure['axis'], now: CellSelectio
   const bound = bound95(point);
   const traces: Trace[] = [{ label: 'predicted √tr Σ', values: point.predicted_mm, colour: '--body-1', form: 'line' }];
   if (point.measured_mm.length > 0) traces.push({ label: 'measured', values: point.measured_mm, colour: '--body-2', form: 'points' });
-  if (report.without_mm.length > 0) traces.push({ label: 'without targets', values: report.without_mm, colour: '--muted', form: 'line', dashed: true });
+  const without = point.without_mm.length > 0 ? { label: 'without targets', values: point.without_mm } : { label: 'without targets, at their centroid', values: report.without_mm };
+  if (without.values.length > 0) traces.push({ ...without, colour: '--muted', form: 'line', dashed: true });
   const inside = point.measured_mm.filter((value, i) => value !== null && bound[i] !== null && value <= bound[i]!).length;
   const both = point.measured_mm.filter((value, i) => value !== null && bound[i] !== null).length;
   const worst = largest(present(point.predicted_mm));
@@ -75,12 +76,13 @@ function rotationFigure(report: CellReport, axis: Figure['axis'], now: CellSelec
 
 /// On a logarithmic axis nothing lies at zero: bands begin at the axis's foot, and what is not above zero is left out.
 function errorFigure(figure: Figure, limits: Limit[], now: CellSelection): Figure {
-  if (now.scale === 'linear') return { ...figure, limits };
+  const height = 220;
+  if (now.scale === 'linear') return { ...figure, limits, height };
   const positive = (values: Column): Column => values.map((value) => (value !== null && value > 0 ? value : null));
   const usual = [...figure.traces.filter((trace) => trace.form === 'line').flatMap((trace) => present(trace.values)), ...limits.map((limit) => limit.value)].filter((value) => value > 0);
   const foot = usual.length > 0 ? logRangeOf(Math.min(...usual) / 4, Math.max(...usual))[0] : 1e-6;
   return {
-    ...figure, limits, log: true,
+    ...figure, limits, height, log: true,
     traces: figure.traces.map((trace) => ({ ...trace, values: positive(trace.values).map((value) => (value === null ? null : Math.max(value, foot))) })),
     bands: figure.bands.map((band) => ({ ...band, low: band.low.map((value) => value === null ? null : foot), high: positive(band.high) })),
   };

@@ -41,6 +41,7 @@ export interface Figure {
   digits: number;
   group?: string;  // figures of one group share their cursor
   limits?: Limit[];
+  height?: number; // px of the plot; 168 if nothing is said
   log?: boolean;   // the values' axis; what is not above zero is left out
 }
 

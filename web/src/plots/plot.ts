@@ -85,7 +85,7 @@ function optionsOf<S extends Place>(figure: Figure, shared: Shared<S>): uPlot.Op
     grid: { stroke: () => colour('--grid'), width: 1 }, ticks: { stroke: () => colour('--grid'), width: 1, size: 4 },
   };
   return {
-    width: 600, height: 168, padding: [8, kPlotRight, 0, 0],
+    width: 600, height: figure.height ?? 168, padding: [8, kPlotRight, 0, 0],
     legend: { show: false },
     cursor: {
       y: false, drag: { x: true, y: false, setScale: false }, points: { show: false },

@@ -54,24 +54,31 @@ export function stageOf(words: string, radius: number, labels: () => Label[], ov
     lamp.position.copy(camera.position);
     renderer.render(scene, camera);
     drawLabels(names, labels(), camera);
-    overlay(names.getContext('2d')!, element.clientWidth, element.clientHeight);
+    overlay(names.getContext('2d')!, size.width, size.height);
   };
   const request = () => {
     if (waiting) return;
     waiting = true;
     requestAnimationFrame(draw);
   };
-  const refresh = () => {
-    const [width, height] = [element.clientWidth, element.clientHeight];
-    if (width === 0 || height === 0) return;
-    const ratio = Math.min(2, window.devicePixelRatio || 1);
-    renderer.setPixelRatio(ratio);
+  let size = { width: 0, height: 0, ratio: 1 };
+  const resize = (width: number, height: number, ratio: number) => {
+    size = { width, height, ratio };
+    renderer.setPixelRatio(Math.min(2, ratio));
     renderer.setSize(width, height, false);
-    names.width = width * (window.devicePixelRatio || 1);
-    names.height = height * (window.devicePixelRatio || 1);
+    names.width = width * ratio;
+    names.height = height * ratio;
     camera.aspect = width / height;
     camera.updateProjectionMatrix();
-    inks.refresh(width, height);
+  };
+  const refresh = () => {
+    const { clientWidth: width, clientHeight: height } = element;
+    if (width === 0 || height === 0) return;
+    const ratio = window.devicePixelRatio || 1;
+    // Printed is the picture as it was on the screen: there the view has no size of its own.
+    const printing = size.width > 0 && window.matchMedia('print').matches;
+    if (!printing && (width !== size.width || height !== size.height || ratio !== size.ratio)) resize(width, height, ratio);
+    inks.refresh(size.width, size.height);
     draw();
   };
   const stand = (target: Vec3, position: Vec3) => {
@@ -98,12 +105,12 @@ export function stageOf(words: string, radius: number, labels: () => Label[], ov
   const project = (at: Vec3): Vec2 | null => {
     const place = new THREE.Vector3(...at).project(camera);
     if (Math.abs(place.z) > 1) return null;
-    return [((place.x + 1) / 2) * element.clientWidth, ((1 - place.y) / 2) * element.clientHeight];
+    return [((place.x + 1) / 2) * size.width, ((1 - place.y) / 2) * size.height];
   };
   const rayAt = (x: number, y: number) => {
     const caster = new THREE.Raycaster();
     camera.updateMatrixWorld();
-    caster.setFromCamera(new THREE.Vector2((2 * x) / element.clientWidth - 1, 1 - (2 * y) / element.clientHeight), camera);
+    caster.setFromCamera(new THREE.Vector2((2 * x) / size.width - 1, 1 - (2 * y) / size.height), camera);
     return caster;
   };
   const onClick = (listener: (x: number, y: number) => void) => {
