@@ -19,7 +19,7 @@ namespace asterism {
 /// solid's surface as a PLY file beside it (CELL.workpiece.ply, CELL.fixture-1.ply …).
 void write_cell(const std::filesystem::path& file, const Cell& cell);
 
-/// Cells that come with the program, by name: "engine_casing".
+/// Cells that come with the program, by name: "engine_casing", "paper_cell", "turbine_casing".
 [[nodiscard]] std::vector<std::string> builtin_cells();
 
 /// A built-in cell by its name, else a file.
