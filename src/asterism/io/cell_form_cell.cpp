@@ -2,7 +2,7 @@
 // The file as a whole, and its tables about part, platform, layout and what goes wrong.
 #include "asterism/cell/cell.hpp"
 #include "asterism/io/cell_form_keys.hpp"
-#include "asterism/io/mesh_file.hpp"
+#include "asterism/io/mesh_scale.hpp"
 
 namespace asterism::forms {
 namespace {

@@ -67,7 +67,7 @@ const Form& volume() {
 }
 
 const Form& pose_in_body() {
-  static const Form form{"a pose",
+  static const Form form{"a pose in a body",
                          {vector("position_mm", "of its origin; zero unless told"),
                           vector("yaw_pitch_roll_deg", "R = Rz(yaw) Ry(pitch) Rx(roll); zero unless told"),
                           numbers("quaternion_wxyz", 4, "instead of the angles; of length 1")}};

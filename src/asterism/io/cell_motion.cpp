@@ -81,9 +81,10 @@ RigidMotion pose_of(const CellSection& section, const Places& places) {
   section.refuse(fmt::format("`in` names body `{}`, which is not given before", name));
 }
 
-RigidMotion pose_or_none(const CellSection& section, const Places& places) {
+RigidMotion pose_on(const std::string& body, const CellSection& section, const Places& places) {
   if (!section.has("pose")) return {};
-  return pose_of(section.section("pose", "a pose"), places);
+  const CellSection pose = section.section("pose", "a pose");
+  return body.empty() ? pose_of(pose, places) : plain_pose(pose);
 }
 
 Motion motion_of(const CellSection& section, const std::string& body, const Places& places) {

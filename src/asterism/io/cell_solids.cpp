@@ -10,6 +10,7 @@
 #include "asterism/io/cell_parts.hpp"
 #include "asterism/io/cell_tables.hpp"
 #include "asterism/io/mesh_file.hpp"
+#include "asterism/io/mesh_scale.hpp"
 
 namespace asterism {
 namespace {
@@ -73,11 +74,11 @@ TriangleMesh casing_of(const CellSection& section) {
   return mesh_of(casing);
 }
 
-/// All but name and surface.
-Solid carried_solid(const CellSection& section, const Places& places) {
+/// All but name and surface; carried by `body` unless told otherwise.
+Solid carried_solid(const CellSection& section, const std::string& body, const Places& places) {
   Solid solid;
-  if (section.has("body")) solid.body = section.text("body");
-  solid.carrier_from_solid = pose_or_none(section, places);
+  solid.body = section.has("body") ? section.text("body") : body;
+  solid.carrier_from_solid = pose_on(solid.body, section, places);
   if (section.has("level")) solid.level = section.number("level");
   return solid;
 }
@@ -93,7 +94,7 @@ Obstacle obstacle_of(const CellSection& section, const Places& places) {
   obstacle.shape = shape_of(section, forms::obstacle());
   obstacle.name = section.text("name");
   if (section.has("body")) obstacle.body = section.text("body");
-  obstacle.carrier_from_shape = pose_or_none(section, places);
+  obstacle.carrier_from_shape = pose_on(obstacle.body, section, places);
   if (section.has("level")) obstacle.level = section.number("level");
   return obstacle;
 }
@@ -105,9 +106,8 @@ Solid workpiece_of(const CellSection& section, const std::string& platform, cons
     section.refuse("[workpiece] needs a surface: `mesh`, a file, or [workpiece.casing]");
   }
   section.must_be(from_file ? forms::workpiece_by_mesh() : forms::workpiece_by_casing());
-  Solid solid = carried_solid(section, places);
+  Solid solid = carried_solid(section, platform, places);
   solid.name = section.has("name") ? section.text("name") : "workpiece";
-  if (!section.has("body")) solid.body = platform;
   solid.surface =
       shared(from_file ? mesh_of_file(section) : casing_of(section.section("casing", "a casing")));
   return solid;
@@ -130,7 +130,7 @@ Solid fixture_of(const CellSection& section, const Places& places) {
     if (!has_extent(shape)) section.refuse("its sizes must be positive");
     surface = mesh_of(shape);
   }
-  Solid solid = carried_solid(section, places);
+  Solid solid = carried_solid(section, "", places);
   solid.name = section.text("name");
   solid.surface = shared(std::move(surface));
   return solid;

@@ -21,8 +21,9 @@ struct Places {
 
 /// In the tracker's frame, in that of a body `in` rest, or `seen_at_mm` by the cameras.
 [[nodiscard]] RigidMotion pose_of(const CellSection& section, const Places& places);
-/// Its `pose`; none: the identity.
-[[nodiscard]] RigidMotion pose_or_none(const CellSection& section, const Places& places);
+/// The `pose` of what `body` carries, in that body's frame; of what none carries (an empty name) as pose_of
+/// has it. The identity when it is not told.
+[[nodiscard]] RigidMotion pose_on(const std::string& body, const CellSection& section, const Places& places);
 
 [[nodiscard]] Motion motion_of(const CellSection& section, const std::string& body, const Places& places);
 /// Adds where the body is at rest to `places`.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "asterism/core/output_file.hpp"
 #include "asterism/core/result.hpp"
