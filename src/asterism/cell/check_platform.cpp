@@ -105,7 +105,9 @@ void check_keyed(const KeyedMotion& motion, const Vec3& pivot, const std::array<
     const Reading now = reading_of(now_from_tracker * pose_at(motion, time_s), pivot);
     for (std::size_t axis = 0; axis < 6; ++axis) {
       check_reach(axes[axis], {now[axis], time_s}, here);
-      if (k > 0) check_rate(axes[axis], {(now[axis] - before[axis]) / (time_s - before_s), time_s}, here);
+      if (k == 0) continue;
+      const double step = axis < 3 ? std::remainder(now[axis] - before[axis], 360) : now[axis] - before[axis];
+      check_rate(axes[axis], {step / (time_s - before_s), time_s}, here);
     }
     before = now;
     before_s = time_s;
