@@ -9,6 +9,7 @@
 
 #include "asterism/core/parallel.hpp"
 #include "asterism/core/result.hpp"
+#include "asterism/io/cell_file.hpp"
 
 namespace asterism::app {
 namespace {
@@ -65,6 +66,12 @@ void print_result(const Common& common, const nlohmann::ordered_json& json, cons
 }
 
 void print_warning(const std::string& message) { fmt::print(stderr, "warning: {}\n", message); }
+
+Cell cell_for(const std::string& name_or_file) {
+  Cell cell = cell_of(name_or_file);
+  for (const std::string& remark : remarks_on(cell)) print_warning(remark);
+  return cell;
+}
 
 StepOptions::StepOptions(CLI::App& command, const OptionsDescription& defaults) {
   command.add_option("--config", given_->config, "TOML file of the options below")

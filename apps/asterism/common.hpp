@@ -17,7 +17,8 @@
 
 namespace asterism {
 class Optimizer;
-}
+struct Cell;
+}  // namespace asterism
 
 namespace asterism::app {
 
@@ -53,6 +54,9 @@ void print_result(const Common& common, const nlohmann::ordered_json& json, cons
 
 /// A line on standard error.
 void print_warning(const std::string& message);
+
+/// A cell by its file or its built-in name; what is odd about it goes to standard error.
+[[nodiscard]] Cell cell_for(const std::string& name_or_file);
 
 /// The options of a step as long options of a command (`min_diameter_px` → `--min-diameter-px`), with
 /// `--config FILE.toml` under them: defaults, then the file, then the command line.

@@ -56,7 +56,7 @@ void print_warnings(const std::vector<std::string>& warnings) {
 }
 
 void evaluate(const EvaluateCall& call, const DesignerOptions& options, const Common& common) {
-  const Cell cell = cell_of(call.cell);
+  const Cell cell = cell_for(call.cell);
   std::vector<NamedLayout> layouts = {present_layout(cell)};
   for (const std::string& file : call.bodies) layouts.push_back(layout_of_file(cell, file));
   if (call.published) {
@@ -140,7 +140,7 @@ void optimize(const OptimizeCall& call, const StepOptions& given, const Common& 
   std::optional<LayoutProblem> problem;
   try {
     processes.together([&] {
-      cell = cell_of(call.cell);
+      cell = cell_for(call.cell);
       problem.emplace(cell, job.options);
     });
   } catch (const Processes::Dismissed&) {

@@ -18,7 +18,7 @@ struct Call {
 };
 
 void run(const Call& call, SimulationOptions options, const Common& common) {
-  Cell cell = cell_of(call.cell);
+  Cell cell = cell_for(call.cell);
   if (call.frames != 0) cell.timing.frames = call.frames;
   options.seed = common.seed;
   const SimulatedRecording made = simulate_recording(cell, {call.out, options}, make_progress(common));
