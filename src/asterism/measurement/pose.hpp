@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "asterism/geometry/rigid_motion.hpp"
 
@@ -33,6 +34,7 @@ struct BodyPose {
   std::optional<PoseEstimate> estimate;  // present for Ok, Partial, Predicted
   int targets = 0;                       // how many took part
   double rms_px = 0;                     // of their residuals
+  std::vector<int> rejected = {};        // targets that were seen and did not fit; ascending
 };
 
 /// One body's pose at one moment of a run.

@@ -48,6 +48,7 @@ BodyPose PoseFilter::update(double time_s, const BodyPose& measured) {
   filtered.estimate = predict(time_s);
   filtered.status = filtered.estimate ? PoseStatus::Predicted : seen ? PoseStatus::Lost : measured.status;
   filtered.targets = 0;
+  filtered.rejected.clear();
   filtered.rms_px = 0;
   return filtered;
 }

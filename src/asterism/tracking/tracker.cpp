@@ -8,6 +8,7 @@
 
 #include "asterism/core/parallel.hpp"
 #include "asterism/statistics/distributions.hpp"
+#include "asterism/tracking/refused_targets.hpp"
 
 namespace asterism {
 namespace {
@@ -182,6 +183,8 @@ BodyPose Tracker::measure_body(std::size_t body, const TrackedFrame& frame, cons
     ++failures_[static_cast<std::size_t>(PoseFailure::Inconsistent)];
     return {static_cast<int>(body), PoseStatus::Lost, {}, 0, 0};
   }
+  pose.rejected = refused_targets(shape, {views, solution->rejected}, solution->estimate, frame.points, use,
+                                  options_.views);
   misfit_[body] = solution->chi_square / solution->degrees_of_freedom;
   return pose;
 }

@@ -155,6 +155,27 @@ TEST(Tracker, TrustsFewTargetsOnlyWhenTheyFitAsWellAsUsual) {
   }
 }
 
+TEST(Tracker, NamesTheTargetThatWasSeenAndDidNotFit) {
+  const StereoRig rig = scene::rig();
+  for (const double mm : {0.0, 0.4, 1.0, 5.0}) {
+    Body there = scene::body();
+    there.targets[3].position += mm * Vec3(0.48, 0.6, -0.64);
+    Tracker tracker(rig, {scene::body()});
+    for (int frame = 0; frame < 10; ++frame) {
+      RandomStream random(93, static_cast<std::uint64_t>(frame));
+      StereoCentres centres{frame, 0.02 * frame, {}, {}};
+      add_centres(centres, rig, there, sweep(frame), all, random);
+      add_clutter(centres, 20, random);
+      const TrackedFrame tracked = tracker.process(centres);
+      ASSERT_EQ(tracked.poses[0].status, PoseStatus::Ok) << mm;
+      expect_near(*tracked.poses[0].estimate, sweep(frame));
+      const std::vector<int> expected = mm == 0 ? std::vector<int>{} : std::vector<int>{3};
+      EXPECT_EQ(tracked.poses[0].rejected, expected) << mm << " mm, frame " << frame;
+      EXPECT_EQ(tracked.filtered[0].rejected, expected);
+    }
+  }
+}
+
 TEST(Tracker, TellsTwoBodiesApart) {
   const StereoRig rig = scene::rig();
   Body scanner{"scanner", {}};

@@ -13,14 +13,6 @@ const std::vector<Centre>& centres_of(const StereoCentres& centres, Side side) {
   return side == Side::Left ? centres.left : centres.right;
 }
 
-TargetView view_of(const Centre& centre, int target, Side side, const ViewOptions& options) {
-  TargetView view{target, side, centre.px(), centre.covariance};
-  if ((centre.flags & (kOccluded | kTouching | kCoarse)) != 0) {
-    view.covariance += options.doubtful_sigma_px * options.doubtful_sigma_px * Mat2::Identity();
-  }
-  return view;
-}
-
 /// Where a pose puts a target in a camera; empty behind it or when turned away.
 std::optional<ExpectedView> expected_view(const Body& body, int target, Side side, const StereoRig& rig,
                                           const PoseEstimate& pose, double smallest_cosine) {
@@ -100,6 +92,16 @@ void describe(ViewOptions& options, OptionVisitor& visit) {
   visit.number("max_size_ratio", options.max_size_ratio, {1, 100}, "of a disc's seen and expected size");
   visit.number("max_incidence_deg", options.max_incidence_deg, {0, 180},
                "discs turned further away are not looked for");
+  visit.number("moved_reach_mm", options.moved_reach_mm, {0, 1000},
+               "how far from its place a target that was knocked is looked for");
+}
+
+TargetView view_of(const Centre& centre, int target, Side side, const ViewOptions& options) {
+  TargetView view{target, side, centre.px(), centre.covariance};
+  if ((centre.flags & (kOccluded | kTouching | kCoarse)) != 0) {
+    view.covariance += options.doubtful_sigma_px * options.doubtful_sigma_px * Mat2::Identity();
+  }
+  return view;
 }
 
 std::vector<ExpectedView> expected_views(const Body& body, const StereoRig& rig, const PoseEstimate& pose,

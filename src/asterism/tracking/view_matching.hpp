@@ -17,8 +17,12 @@ struct ViewOptions {
   double match_error_px = 0.3;      // what rig and body may add to that, one sigma
   double max_size_ratio = 1.4;      // of a disc's seen and expected size, by the median of its body's
   double max_incidence_deg = 85.0;  // discs turned further away are not looked for
+  double moved_reach_mm = 20.0;     // how far from its place a target that was knocked is looked for
 };
 void describe(ViewOptions& options, OptionVisitor& visit);
+
+/// A centre as a target's view; its covariance widened where its flags call it doubtful.
+[[nodiscard]] TargetView view_of(const Centre& centre, int target, Side side, const ViewOptions& options);
 
 /// Which centres of a frame already belong to a target.
 struct CentreUse {
