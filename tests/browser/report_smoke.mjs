@@ -134,20 +134,33 @@ async function lookAtCell(browser, file, data) {
   expect(await evaluate(`document.body.innerText.includes('</script><b>backlight</b>')`), 'names stay text');
 
   const readout = () => evaluate(`document.querySelector('.readout tbody tr').innerText`);
-  const picture = () => evaluate(`(() => { const c = document.querySelector('.scene canvas'); return c.toDataURL(); })()`);
-  const [words, drawn] = [await readout(), await picture()];
+  const words = await readout();
   const slide = (to) => evaluate(`(() => { const s = document.querySelector('.timeline input'); s.value = ${to}; s.dispatchEvent(new Event('input', { bubbles: true })); })()`);
   await slide(12);
   expect((await evaluate(`document.querySelector('.where').textContent`)).startsWith('frame 12 '), 'the slider goes to its frame');
   expect(await readout() !== words, 'the slider moves the platform: other numbers');
-  await new Promise((resolve) => setTimeout(resolve, 200));
-  expect(await picture() !== drawn, 'the slider moves the platform: another picture');
   const blocked = data.time_s.findIndex((_, i) => data.bodies[0].sight.some(([left]) => left[i] === 'a'));
   await slide(blocked);
   expect(await evaluate(`document.querySelector('.sight-words').textContent.includes('hidden by casing')`), 'what hides a target is said in words');
 
   const toggle = (layer) => evaluate(`[...document.querySelectorAll('.layers label')].find((l) => l.textContent === '${layer}').firstChild.click()`);
   const press = (text) => evaluate(`[...document.querySelectorAll('button')].find((b) => b.textContent === '${text}').click()`);
+  const picture = async () => {
+    await evaluate(`new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)))`);
+    return evaluate(`document.querySelector('.scene canvas').toDataURL()`);
+  };
+  // Two moments in which every target is seen alike: with lines and ellipsoids off, only what moves can differ.
+  const alike = (i) => data.bodies.every(({ sight }) => sight.flat().every((letters) => letters[i] === letters[i + 1]));
+  const still = data.time_s.findIndex((_, i) => i + 1 < data.time_s.length && alike(i));
+  for (const layer of ['sight lines', 'error ellipsoids']) await toggle(layer);
+  await slide(still);
+  const [drawn, same] = [await picture(), await picture()];
+  await slide(still + 1);
+  expect(drawn === same && await picture() !== drawn, 'the slider moves the platform: another picture');
+  for (const layer of ['sight lines', 'error ellipsoids']) await toggle(layer);
+  await slide(blocked);
+  await picture();
+
   const rays = await evaluate(kRay);
   await toggle('sight lines');
   expect(await until(`${kRay} < ${rays / 4}`), `sight lines can be switched off (${rays} points of their colour, then ${await evaluate(kRay)})`);
