@@ -21,6 +21,8 @@ namespace asterism {
 /// compiler aligns these vectors to 16 bytes only, with AVX it counts on 32.
 constexpr std::size_t kLanesAlignment = 32;
 using DoubleLanes = double __attribute__((vector_size(32)));
+using FloatLanes = float __attribute__((vector_size(32)));
+using IntLanes = int __attribute__((vector_size(32)));
 /// What comparing lanes gives: all bits set where it holds.
 using MaskLanes = std::int64_t __attribute__((vector_size(32)));
 constexpr std::size_t kDoubleLanes = sizeof(DoubleLanes) / sizeof(double);

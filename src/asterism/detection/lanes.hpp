@@ -9,8 +9,6 @@
 
 namespace asterism {
 
-using FloatLanes = float __attribute__((vector_size(32)));
-using IntLanes = int __attribute__((vector_size(32)));
 using WordLanes = std::uint64_t __attribute__((vector_size(32)));
 using ByteLanes = std::uint8_t __attribute__((vector_size(32)));
 using ShortLanes = std::uint16_t __attribute__((vector_size(32)));

@@ -11,8 +11,6 @@
 namespace asterism {
 namespace {
 
-constexpr int kMostTaps = 256;
-
 /// Mean of max(t − X, 0) for X uniform in [low, high].
 double mean_excess(double t, double low, double high) {
   if (t <= low) return 0;
@@ -55,13 +53,52 @@ void add_edge(FineGrid& differences, const Vec2& a, const Vec2& b, double weight
   }
 }
 
-/// Gaussian blur of a step gathered over pixels: cumulative(d) = ∫ Φ(u/σ) du up to d.
+/// The normal distribution and its density at 1/64 σ, between by Taylor's series: to 1e-10, at a tenth of the
+/// price of erfc and exp.
+class NormalCurve {
+ public:
+  NormalCurve() {
+    for (int i = 0; i < kNodes; ++i) {
+      const double z = node(i);
+      nodes_[static_cast<std::size_t>(i)] = {
+          0.5 * std::erfc(-z / std::numbers::sqrt2),
+          std::exp(-0.5 * z * z) * std::numbers::inv_sqrtpi / std::numbers::sqrt2};
+    }
+  }
+  struct Value {
+    double cdf, density;
+  };
+  [[nodiscard]] Value at(double z) const {
+    if (z <= -kReach) return {0, 0};
+    if (z >= kReach) return {1, 0};
+    const int i = static_cast<int>((z + kReach) * kPerSigma + 0.5);
+    const double at = node(i), d = z - at;
+    const Value& near = nodes_[static_cast<std::size_t>(i)];
+    const double curve = at * at - 1;
+    return {near.cdf + near.density * d * (1 - d * (at / 2 - d * (curve / 6))),
+            near.density * (1 - d * (at - d * (curve / 2 - d * (at * (at * at - 3) / 6))))};
+  }
+
+ private:
+  static constexpr int kReach = 8, kPerSigma = 64, kNodes = 2 * kReach * kPerSigma + 1;
+  static double node(int i) { return static_cast<double>(i) / kPerSigma - kReach; }
+  std::array<Value, kNodes> nodes_{};
+};
+
+const NormalCurve& normal_curve() {
+  static const NormalCurve kCurve;
+  return kCurve;
+}
+
+/// Gaussian blur of a step: how much of it lies before d, and that summed up: ∫ Φ(u/σ) du up to d.
 struct BlurredStep {
   double sigma;
-  [[nodiscard]] double cdf(double d) const { return 0.5 * std::erfc(-d / (sigma * std::numbers::sqrt2)); }
-  [[nodiscard]] double cumulative(double d) const {
-    const double z = d / sigma;
-    return d * cdf(d) + sigma * std::exp(-0.5 * z * z) * std::numbers::inv_sqrtpi / std::numbers::sqrt2;
+  struct Value {
+    double cdf, cumulative;
+  };
+  [[nodiscard]] Value at(double d) const {
+    const NormalCurve::Value normal = normal_curve().at(d / sigma);
+    return {normal.cdf, d * normal.cdf + sigma * normal.density};
   }
 };
 
@@ -78,31 +115,38 @@ std::vector<double> gaussian_taps(double sigma_cells) {
   return taps;
 }
 
-/// One point's part of the integral, written as differences along each row.
+/// One point's part of the integral, written as differences along each row. `rise` is room for its columns.
 void add_rim_point(FineGrid& differences, const RimPoint& point, const BlurredStep& step, int reach,
-                   double weight) {
+                   double weight, std::vector<double>& rise) {
   const Vec2 at = point.px - Vec2(differences.x0, differences.y0);
   const int middle_x = static_cast<int>(std::lround(at.x()));
   const int middle_y = static_cast<int>(std::lround(at.y()));
-  std::array<double, kMostTaps> rise{};  // of A from one column to the next
   const int count = 2 * reach + 2;
-  double before = 0;
+  double before = 0;  // A of the column before; each rise is A's step from one to the next
+  double edge = step.at(middle_x - reach - 0.5 - at.x()).cumulative;
   for (int k = 0; k < count; ++k) {
-    const double d = middle_x - reach + k - at.x();
-    const double a = k + 1 < count ? step.cumulative(d + 0.5) - step.cumulative(d - 0.5) : 1.0;
+    const double next = step.at(middle_x - reach + k + 0.5 - at.x()).cumulative;
+    const double a = k + 1 < count ? next - edge : 1.0;
     rise[static_cast<std::size_t>(k)] = a - before;
     before = a;
+    edge = next;
   }
   const int first_y = std::max(0, middle_y - reach);
   const int last_y = std::min(differences.height - 1, middle_y + reach);
+  const int first_x = middle_x - reach;
+  const bool whole = first_x >= 0 && first_x + count <= differences.width;
+  double above = step.at(first_y - 0.5 - at.y()).cdf;
   for (int y = first_y; y <= last_y; ++y) {
-    const double d = y - at.y();
-    const double gathered = weight * point.by_step.y() * (step.cdf(d + 0.5) - step.cdf(d - 0.5));
+    const double below = step.at(y + 0.5 - at.y()).cdf;
+    const double gathered = weight * point.by_step.y() * (below - above);
+    above = below;
     double* row = differences.row(y);
-    for (int k = 0; k < count; ++k) {
-      const int x = middle_x - reach + k;
-      if (x < differences.width) row[std::max(0, x)] += gathered * rise[static_cast<std::size_t>(k)];
+    if (whole) {
+      for (int k = 0; k < count; ++k) row[first_x + k] += gathered * rise[static_cast<std::size_t>(k)];
+      continue;
     }
+    for (int k = 0; k < count && first_x + k < differences.width; ++k)
+      row[std::max(0, first_x + k)] += gathered * rise[static_cast<std::size_t>(k)];
   }
 }
 
@@ -190,13 +234,13 @@ std::vector<double> pixel_means(const FineGrid& grid) {
 void add_blurred(FineGrid& grid, const Rim& rim, double sigma_px, double weight) {
   require(grid.parts == 1 && sigma_px > 0, "a blurred rim is drawn pixel by pixel");
   const int reach = static_cast<int>(std::ceil(6.0 * sigma_px + 0.5));
-  require(2 * reach + 2 <= kMostTaps, "the blur is at most 20 px");
   FineGrid differences(grid.x0, grid.y0, grid.width, grid.height, 1);
   // A grows towards +x: a rim that runs with y down its left flank encloses its inside negatively.
   double area = 0;
   for (const RimPoint& point : rim) area += (point.px.x() - rim[0].px.x()) * point.by_step.y();
   const double sense = area > 0 ? -weight : weight;
-  for (const RimPoint& point : rim) add_rim_point(differences, point, {sigma_px}, reach, sense);
+  std::vector<double> rise(static_cast<std::size_t>(2 * reach + 2));
+  for (const RimPoint& point : rim) add_rim_point(differences, point, {sigma_px}, reach, sense, rise);
   add_sums_along_rows(grid, differences);
 }
 

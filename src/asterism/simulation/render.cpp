@@ -4,17 +4,21 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
+#include "asterism/core/parallel.hpp"
 #include "asterism/simulation/disc_light.hpp"
-#include "asterism/simulation/silhouette.hpp"
 #include "asterism/simulation/streams.hpp"
+#include "asterism/simulation/surface_light.hpp"
 
 namespace asterism {
 namespace {
 
-// Instants so close that an edge's steps between them vanish in the blur.
+// Instants so close that an edge's steps between them vanish in the blur. The most are for what no tracker
+// could use any more: a target that crosses half the image while the shutter is open.
 constexpr double kStep_px = 0.2;
-constexpr int kMostInstants = 64;
+constexpr double kStepOfBlur = 0.4;
+constexpr int kMostInstants = 4096;
 
 Vec2 background_slope(const Cell& cell, const Lens& lens) {
   return {cell.light.gradient_x / lens.width_px, cell.light.gradient_y / lens.height_px};
@@ -34,6 +38,17 @@ Raster<float> background_of(const Cell& cell, const Lens& lens) {
   return light;
 }
 
+/// The longest way that a disc's centre goes in the image.
+double farthest(const Scene& begin, const Scene& end, const Lens& lens) {
+  double farthest_px = 0;
+  for (std::size_t i = 0; i < begin.discs.size(); ++i) {
+    const auto from = project(lens, begin.discs[i].place.centre);
+    const auto to = project(lens, end.discs[i].place.centre);
+    if (from && to) farthest_px = std::max(farthest_px, (to->px - from->px).norm());
+  }
+  return farthest_px;
+}
+
 /// The scenes of the exposure: as many as the fastest disc needs.
 std::vector<Scene> exposure_of(const Stage& stage, Side side, double time_s) {
   const Cell& cell = stage.cell;
@@ -43,13 +58,9 @@ std::vector<Scene> exposure_of(const Stage& stage, Side side, double time_s) {
   if (exposure_s <= 0) return scenes;
   const Scene begin = scene_of(stage, side, time_s - 0.5 * exposure_s);
   const Scene end = scene_of(stage, side, time_s + 0.5 * exposure_s);
-  double farthest_px = 0;
-  for (std::size_t i = 0; i < begin.discs.size(); ++i) {
-    const auto from = project(lens, begin.discs[i].place.centre);
-    const auto to = project(lens, end.discs[i].place.centre);
-    if (from && to) farthest_px = std::max(farthest_px, (to->px - from->px).norm());
-  }
-  const int count = std::clamp(static_cast<int>(std::ceil(farthest_px / kStep_px)), 1, kMostInstants);
+  const double farthest_px = std::max(farthest(begin, scenes[0], lens), farthest(scenes[0], end, lens));
+  const double step_px = std::max(kStep_px, kStepOfBlur * cell.sensor.blur_px);
+  const int count = std::clamp(static_cast<int>(std::ceil(2 * farthest_px / step_px)), 1, kMostInstants);
   if (count == 1) return scenes;
   scenes.clear();
   for (int i = 0; i < count; ++i) {
@@ -58,7 +69,7 @@ std::vector<Scene> exposure_of(const Stage& stage, Side side, double time_s) {
   return scenes;
 }
 
-void add_disc(Raster<float>& light, const DiscLight& disc, double level) {
+void add_disc(Raster<float>& light, const DiscLight& disc) {
   for (int j = 0; j < disc.height; ++j) {
     const int y = disc.y0 + j;
     if (y < 0 || y >= light.height) continue;
@@ -67,8 +78,47 @@ void add_disc(Raster<float>& light, const DiscLight& disc, double level) {
     for (int i = 0; i < disc.width; ++i) {
       const int x = disc.x0 + i;
       if (x < 0 || x >= light.width) continue;
-      row[x] += static_cast<float>(share[i] * (level - row[x]));
+      row[x] += static_cast<float>(share[i] * (disc.level - row[x]));
     }
+  }
+}
+
+std::vector<DiscLight> discs_of(const std::vector<Scene>& scenes, const Lens& lens, const Sensor& sensor) {
+  std::vector<DiscLight> discs(scenes.front().discs.size());
+  parallel_for(discs.size(), [&](std::size_t i) { discs[i] = light_of_disc(scenes, i, lens, sensor); });
+  return discs;
+}
+
+void add_halo(Raster<float>& light, const Lamp& lamp, const Vec2& centre, double radius_px, double free) {
+  constexpr double kUnseen = 2.5e-4;  // of full scale: a sixteenth of a grey level of 8 bits
+  const double level = lamp.halo_level * free;
+  if (!(level > kUnseen) || lamp.halo_px <= 0) return;
+  const double reach = radius_px + lamp.halo_px * std::log(level / kUnseen);
+  const auto within = [](double at, int size) { return static_cast<int>(std::clamp<double>(at, 0, size)); };
+  const int first_x = within(centre.x() - reach, light.width);
+  const int end_x = within(centre.x() + reach + 1, light.width);
+  for (int y = within(centre.y() - reach, light.height); y < within(centre.y() + reach + 1, light.height);
+       ++y) {
+    float* row = light.row(y);
+    for (int x = first_x; x < end_x; ++x) {
+      const double apart = std::hypot(x - centre.x(), y - centre.y());
+      if (apart > reach) continue;
+      const double beyond = std::max(0.0, apart - radius_px) / lamp.halo_px;
+      row[x] += static_cast<float>(level * std::exp(-beyond));
+    }
+  }
+}
+
+/// Stray light beside the lamps: it falls off from a lamp's rim, and is as strong as the lamp is free.
+void add_halos(Raster<float>& light, const Scene& scene, const std::vector<DiscLight>& discs,
+               const std::vector<Lamp>& lamps, const Lens& lens) {
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    const SceneDisc& disc = scene.discs[i];
+    if (disc.body >= 0 || discs[i].shares.empty()) continue;
+    const RimMoments moments = moments_of(rim_of_disc(lens, disc.place));
+    const double lit = std::accumulate(discs[i].shares.begin(), discs[i].shares.end(), 0.0);
+    add_halo(light, lamps[static_cast<std::size_t>(disc.target)], moments.ellipse.centre,
+             moments.ellipse.semi_major, std::min(1.0, lit / moments.area_px2));
   }
 }
 
@@ -119,11 +169,10 @@ Raster<float> render_light(const Stage& stage, Side side, double time_s, std::ui
   const Lens& lens = cell.rig.lens(side);
   Raster<float> light = background_of(cell, lens);
   const std::vector<Scene> scenes = exposure_of(stage, side, time_s);
-  paint_silhouettes(light, scenes[scenes.size() / 2], lens, cell.sensor.blur_px);
-  for (std::size_t i = 0; i < scenes.front().discs.size(); ++i) {
-    const double level = cell.light.target_level * scenes[scenes.size() / 2].discs[i].brightness;
-    add_disc(light, light_of_disc(scenes, i, lens, cell.sensor.blur_px), level);
-  }
+  draw_surfaces(light, scenes, lens, cell);
+  const std::vector<DiscLight> discs = discs_of(scenes, lens, cell.sensor);
+  for (const DiscLight& disc : discs) add_disc(light, disc);
+  add_halos(light, scenes[scenes.size() / 2], discs, cell.lamps, lens);
   add_glints(light, cell, stream_of(seed, frame, side, Purpose::Glints));
   vignette(light, cell.light.vignetting);
   return light;

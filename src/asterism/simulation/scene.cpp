@@ -23,6 +23,19 @@ SceneDisc disc_of(const Target& target, const RigidMotion& camera_from_body, con
   const double ratio =
       light.retro_falloff_deg > 0 ? deg_from_rad(disc.incidence_rad) / light.retro_falloff_deg : 0.0;
   disc.brightness = std::exp(-ratio * ratio * ratio * ratio);
+  disc.level = light.target_level * disc.brightness;
+  return disc;
+}
+
+SceneDisc disc_of(const Lamp& lamp, int number, const RigidMotion& camera_from_tracker) {
+  SceneDisc disc;
+  disc.body = -1;
+  disc.target = number;
+  disc.place.centre = camera_from_tracker * lamp.in_tracker_mm;
+  disc.place.normal = -disc.place.centre.normalized();
+  disc.place.radius_mm = lamp.radius_mm;
+  disc.brightness = 1;
+  disc.level = lamp.level;
   return disc;
 }
 
@@ -63,11 +76,15 @@ Scene scene_of(const Stage& stage, Side side, double time_s) {
       const StageTarget now = target_at(stage, body, i, time_s);
       SceneDisc disc = disc_of(now.target, camera_from_body.back(), cell.light);
       disc.there = now.there;
-      if (!now.there) disc.brightness = 0;
+      if (!now.there) disc.brightness = disc.level = 0;
       disc.body = static_cast<int>(body);
       disc.target = static_cast<int>(i);
       scene.discs.push_back(disc);
     }
+  }
+  for (const Lamp& lamp : cell.lamps) {
+    const int number = static_cast<int>(&lamp - cell.lamps.data());
+    scene.discs.push_back(disc_of(lamp, number, camera_from_tracker));
   }
   for (const Obstacle& obstacle : cell.obstacles) {
     RigidMotion camera_from_shape = camera_from_tracker * obstacle.carrier_from_shape;
@@ -76,16 +93,16 @@ Scene scene_of(const Stage& stage, Side side, double time_s) {
         camera_from_shape = camera_from_body[i] * obstacle.carrier_from_shape;
     }
     const Ball ball = ball_around(obstacle.shape);
-    scene.solids.push_back({obstacle.shape,
-                            camera_from_shape.inverse(),
-                            {camera_from_shape * ball.centre, ball.radius_mm},
-                            obstacle.level});
+    scene.solids.push_back(
+        {obstacle.shape, camera_from_shape.inverse(), {camera_from_shape * ball.centre, ball.radius_mm}});
   }
-  for (const StageSolid& solid : stage.solids) {
-    const RigidMotion& camera_from_carrier =
-        solid.carrier < 0 ? camera_from_tracker : camera_from_body[static_cast<std::size_t>(solid.carrier)];
-    scene.meshes.push_back({&solid, camera_from_carrier.inverse()});
-  }
+  const auto camera_from = [&](int carrier) {
+    return carrier < 0 ? camera_from_tracker : camera_from_body[static_cast<std::size_t>(carrier)];
+  };
+  for (const StageSolid& solid : stage.solids)
+    scene.meshes.push_back({&solid, camera_from(solid.carrier).inverse()});
+  for (const DrawnSurface& surface : stage.surfaces)
+    scene.surfaces.push_back({&surface, camera_from(surface.carrier)});
   return scene;
 }
 

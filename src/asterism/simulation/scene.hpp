@@ -10,12 +10,13 @@
 
 namespace asterism {
 
-/// One target as one camera has it at one moment; lengths in mm in the camera's frame.
+/// One target, or one lamp, as one camera has it at one moment; lengths in mm in the camera's frame.
 struct SceneDisc {
-  int body = 0, target = 0;
+  int body = 0, target = 0;  // a lamp has body −1 and its number
   DiscPlace place;
   double incidence_rad = 0;  // between its normal and the way to the camera
   double brightness = 0;     // relative to one seen square on; 0 from behind, or when it is not there
+  double level = 0;          // its light as a share of full scale
   bool there = true;         // false: it has fallen off
 };
 
@@ -23,7 +24,6 @@ struct SceneSolid {
   Shape shape;
   RigidMotion shape_from_camera;
   Ball ball;  // around it, in the camera's frame
-  std::optional<double> level;
 };
 
 /// A mesh: the stage's own, seen from here.
@@ -32,14 +32,22 @@ struct SceneMesh {
   RigidMotion carrier_from_camera;
 };
 
-/// The cell before one camera at one moment; not to outlive its stage.
-struct Scene {
-  std::vector<SceneDisc> discs;
-  std::vector<SceneSolid> solids;
-  std::vector<SceneMesh> meshes;
+/// A surface to be drawn: the stage's own, seen from here.
+struct SceneSurface {
+  const DrawnSurface* surface;
+  RigidMotion camera_from_carrier;
 };
 
-/// A target without a normal faces each camera; one without a diameter is a point (radius 0).
+/// The cell before one camera at one moment; not to outlive its stage.
+struct Scene {
+  std::vector<SceneDisc> discs;  // targets, then lamps
+  std::vector<SceneSolid> solids;
+  std::vector<SceneMesh> meshes;
+  std::vector<SceneSurface> surfaces;
+};
+
+/// A target without a normal, and a lamp, faces each camera; a target without a diameter is a point
+/// (radius 0).
 [[nodiscard]] Scene scene_of(const Stage& stage, Side side, double time_s);
 
 /// The solids, meshes and foreign targets that may hide part of disc `index`: of the others a ball or a plane

@@ -93,6 +93,11 @@ TEST(Simulator, MakesTheSameBitsOnOneThreadAndOnTwo) {
   cell.light.glints = 4;
   cell.sensor.exposure_s = 0.004;
   cell.obstacles.push_back({"rod", Capsule{{-100, -200, 1500}, {200, 200, 1500}, 8}, "", {}, 0.1});
+  cell.sensor.focus_mm = 1800;
+  cell.light.specular = 0.8;
+  cell.lamps.push_back({"lamp", {300, -200, 2400}, 15, 2, 0.2, 30});
+  const auto casing = std::make_shared<const TriangleMesh>(mesh_of(CasingShape{}));
+  cell.workpiece = Solid{"casing", casing, "platform", {}, 0.3};
   const Simulator simulator(cell, {});
   set_thread_count(1);
   const SimulatedFrame one = simulator.frame(3);

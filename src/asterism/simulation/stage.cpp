@@ -16,6 +16,28 @@ StageSolid ready(const Cell& cell, const Solid& solid) {
   return {mover_index(cell, solid.body), RayScene(surface), extent_of(surface)};
 }
 
+/// What is seen of the cell in its pictures. Lines that a lens bends are drawn in pieces of some 60 px.
+std::vector<DrawnSurface> surfaces_of(const Cell& cell) {
+  const bool bends = cell.rig.left.coefficients > 0 || cell.rig.right.coefficients > 0;
+  const double longest_mm = bends ? 40 : 0;
+  std::vector<DrawnSurface> surfaces;
+  const auto add = [&](const TriangleMesh& mesh, const RigidMotion& carrier_from_mesh,
+                       const std::string& body, const std::optional<double>& level) {
+    if (!level || mesh.empty()) return;
+    surfaces.push_back(
+        drawn_surface(moved(mesh, carrier_from_mesh), mover_index(cell, body), *level, longest_mm));
+  };
+  const auto add_solid = [&](const Solid& solid) {
+    add(*solid.surface, solid.carrier_from_solid, solid.body, solid.level);
+  };
+  if (cell.workpiece) add_solid(*cell.workpiece);
+  for (const Solid& fixture : cell.fixtures) add_solid(fixture);
+  for (const Obstacle& one : cell.obstacles) {
+    if (one.level) add(mesh_of(one.shape), one.carrier_from_shape, one.body, one.level);
+  }
+  return surfaces;
+}
+
 StageFault found(const Cell& cell, const TargetFault& fault) {
   for (std::size_t body = 0; body < cell.movers.size(); ++body) {
     if (cell.movers[body].body.name != fault.body) continue;
@@ -39,6 +61,7 @@ Stage stage_of(Cell cell) {
   };
   if (stage.cell.workpiece) add(*stage.cell.workpiece);
   for (const Solid& fixture : stage.cell.fixtures) add(fixture);
+  stage.surfaces = surfaces_of(stage.cell);
   for (const TargetFault& fault : stage.cell.faults) stage.faults.push_back(found(stage.cell, fault));
   return stage;
 }

@@ -36,6 +36,7 @@ void add_targets(const Stage& stage, Side side, double time_s, FrameTruth& truth
   const Scene scene = scene_of(stage, side, time_s);
   for (std::size_t i = 0; i < scene.discs.size(); ++i) {
     const SceneDisc& disc = scene.discs[i];
+    if (disc.body < 0) break;  // lamps are no targets
     const auto centre = project(lens, disc.place.centre);
     const Rim rim = rim_of_disc(lens, disc.place);
     if (!centre || rim.empty()) continue;
