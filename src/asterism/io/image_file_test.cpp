@@ -56,6 +56,16 @@ TEST(ReadImage, KeepsSixteenBits) {
   }
 }
 
+TEST(WriteImage, PutsTheHighByteFirstInPgmAsTheStandardSays) {
+  const TestFolder folder;
+  Raster16 raster(2, 1);
+  raster.pixels = {0x0102, 0xA0B0};
+  write_image(folder / "a.pgm", raster);
+  const std::string bytes = folder.read("a.pgm");
+  EXPECT_EQ(bytes.substr(0, 2), "P5");
+  EXPECT_EQ(bytes.substr(bytes.size() - 4), "\x01\x02\xA0\xB0");
+}
+
 TEST(ReadImage, ConvertsColourToGrey) {
   const TestFolder folder;
   std::string pixels;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "asterism/core/output_file.hpp"
 #include "asterism/core/parallel.hpp"
@@ -83,16 +85,17 @@ class TruthTables {
   std::optional<CentreTable> centres_;
 };
 
-FrameEntry write_images(const std::filesystem::path& folder, const SimulatedFrame& made) {
+FrameEntry write_images(const SimulateJob& job, const SimulatedFrame& made) {
   FrameEntry entry{made.frame, made.time_s, "", ""};
-  const std::string name = fmt::format("{:04}.png", made.frame);
+  const std::string name =
+      fmt::format("{:04}.{}", made.frame, job.format == PictureFormat::Pgm ? "pgm" : "png");
   if (made.image.left) {
     entry.left = "left/" + name;
-    write_image(folder / entry.left, *made.image.left);
+    write_image(job.out / entry.left, *made.image.left);
   }
   if (made.image.right) {
     entry.right = "right/" + name;
-    write_image(folder / entry.right, *made.image.right);
+    write_image(job.out / entry.right, *made.image.right);
   }
   return entry;
 }
@@ -105,6 +108,18 @@ void make_folders(const SimulateJob& job) {
   if (job.options.level == SimulationLevel::Centres) return;
   for (const char* side : {"left", "right"}) std::filesystem::create_directories(job.out / side, error);
   if (error) throw InputError(job.out.string(), "cannot be made: " + error.message());
+}
+
+void count_faults(const Cell& cell, SimulatedRecording& counts) {
+  const double last_s = (cell.timing.frames - 1) / cell.timing.rate_hz;
+  std::set<std::pair<std::string, std::string>> fallen, knocked;
+  for (const TargetFault& fault : cell.faults) {
+    if (fault.time_s > last_s) continue;
+    (fault.kind == FaultKind::FallsOff ? fallen : knocked).emplace(fault.body, fault.target);
+  }
+  for (const auto& target : fallen) knocked.erase(target);
+  counts.fallen = fallen.size();
+  counts.knocked = knocked.size();
 }
 
 }  // namespace
@@ -127,7 +142,7 @@ SimulatedRecording simulate_recording(const Cell& cell, const SimulateJob& job, 
     std::vector<FrameEntry> entries(count);
     parallel_for(count, [&](std::size_t i) {
       made[i] = simulator.frame(static_cast<int>(first + i));
-      entries[i] = write_images(job.out, made[i]);
+      entries[i] = write_images(job, made[i]);
     });
     for (std::size_t i = 0; i < count; ++i) {
       tables.write(made[i], entries[i], counts);
@@ -136,6 +151,7 @@ SimulatedRecording simulate_recording(const Cell& cell, const SimulateJob& job, 
     progress(doing, first + count, total);
   }
   tables.finish();
+  count_faults(cell, counts);
   return counts;
 }
 

@@ -8,9 +8,13 @@
 
 namespace asterism {
 
+enum class PictureFormat { Png, Pgm };
+
 struct SimulateJob {
   std::filesystem::path out;  // the recording's folder
   SimulationOptions options;
+  PictureFormat format =
+      PictureFormat::Png;  // PGM: not packed, so two to three times the size, and much faster
 };
 
 struct SimulatedRecording {
@@ -18,6 +22,8 @@ struct SimulatedRecording {
   std::size_t lost = 0;            // images that a camera lost
   std::size_t targets_seen = 0;    // in an image, at least 98 % visible
   std::size_t targets_hidden = 0;  // less than that
+  std::size_t fallen = 0;          // targets that fell off by the last frame
+  std::size_t knocked = 0;         // targets that stand beside their place by the last frame
 };
 
 /// Makes all frames of the cell and writes them as a recording with truth: rig.yaml, bodies.toml,
