@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one simulated stereo frame costs, by stage, for 3- and 12-megapixel cameras.
+// What one simulated stereo frame costs: a whole cell on all cores beside writing its images, and by stage on
+// one thread for 3- and 12-megapixel cameras.
 #include <fmt/format.h>
+
+#include <filesystem>
 
 #include "asterism/core/parallel.hpp"
 #include "asterism/core/random.hpp"
+#include "asterism/io/cell_file.hpp"
+#include "asterism/io/image_file.hpp"
 #include "asterism/simulation/render.hpp"
 #include "asterism/simulation/sensor.hpp"
 #include "asterism/simulation/simulate.hpp"
@@ -49,9 +54,65 @@ void measure(bench::Table& table, const char* camera, const Cell& cell) {
              fmt::format("{:.1f}", 1e3 * noise), fmt::format("{:.1f}", 1e3 * whole)});
 }
 
+/// The built-in cell with its part as a mesh, glints, lamps in view and a lens out of focus.
+Cell engine_casing() {
+  Cell cell = cell_of("engine_casing");
+  std::erase_if(cell.obstacles, [](const Obstacle& one) { return one.name == "casing"; });
+  const auto surface = std::make_shared<const TriangleMesh>(mesh_of(CasingShape{}));
+  cell.workpiece = Solid{"casing", surface, "platform", {}, 0.2};
+  cell.lamps = {{"lamp", {650, -330, 3000}, 40, 2, 0.15, 60}, {"window", {700, 350, 2600}, 25, 1.5, 0.1, 40}};
+  cell.light.specular = 0.9;
+  cell.sensor.focus_mm = 2000;
+  cell.sensor.lost_frames = 0;
+  return cell;
+}
+
+/// Seconds a stereo frame when `frames` are made side by side on all cores, as a recording is.
+double seconds_a_frame(const Simulator& simulator, std::size_t frames) {
+  return bench::median_seconds(
+             [&] {
+               parallel_for(frames, [&](std::size_t i) { (void)simulator.frame(static_cast<int>(i)); });
+             },
+             5) /
+         static_cast<double>(frames);
+}
+
+double seconds_to_write(const StereoImage& image, const std::string& ending) {
+  const auto folder = std::filesystem::temp_directory_path();
+  return bench::median_seconds(
+      [&] {
+        write_image(folder / ("asterism_bench_left" + ending), *image.left);
+        write_image(folder / ("asterism_bench_right" + ending), *image.right);
+      },
+      5);
+}
+
+void measure_recording() {
+  bench::Table table("the engine casing with its mesh, 2048 × 1536, all cores",
+                     {"what", "ms a stereo frame", "stereo frames a second"});
+  const auto row = [&](const char* what, double seconds) {
+    table.row({what, fmt::format("{:.1f}", 1e3 * seconds), fmt::format("{:.1f}", 1 / seconds)});
+  };
+  const Cell cell = engine_casing();
+  const Simulator images(cell, {});
+  row("images in memory, with truth", seconds_a_frame(images, 16));
+  Cell turning = cell;
+  turning.sensor.exposure_s = 0.01;
+  std::get<Sweep>(turning.movers[0].motion).yaw = {0.25, 2, 0};  // 180°/s in the middle of its swing
+  row("the same, turning 180°/s, exposed for 10 ms", seconds_a_frame(Simulator(turning, {}), 8));
+  SimulationOptions centres;
+  centres.level = SimulationLevel::Centres;
+  row("centres alone, with truth", seconds_a_frame(Simulator(cell, centres), 1000));
+  const StereoImage image = images.frame(0).image;
+  row("writing PNG, one core", seconds_to_write(image, ".png"));
+  row("writing PGM, one core", seconds_to_write(image, ".pgm"));
+  table.print_json();
+}
+
 }  // namespace
 
 int main() {
+  measure_recording();
   asterism::bench::Table table("one simulated stereo frame, one thread",
                                {"camera", "targets", "light, one camera (ms)", "sensor, one camera (ms)",
                                 "whole stereo frame with truth (ms)"});

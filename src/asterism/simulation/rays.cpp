@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace asterism {
 namespace {
@@ -67,50 +66,7 @@ Ball ball_of(const Frustum& cone) {
           std::hypot(0.5 * cone.height_mm, std::max(cone.bottom_radius_mm, cone.top_radius_mm))};
 }
 
-/// Axes, edges and corners of a cube, each with its opposite.
-std::array<Vec3, 26> cube_directions() {
-  std::array<Vec3, 26> directions;
-  std::size_t next = 0;
-  for (int code = 0; code < 27; ++code) {
-    const Vec3 way(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
-    if (code != 13) directions[next++] = way.normalized();
-  }
-  return directions;
-}
-
-const std::array<Vec3, 26>& directions() {
-  static const std::array<Vec3, 26> kDirections = cube_directions();
-  return kDirections;
-}
-
 }  // namespace
-
-Extent extent_of(const TriangleMesh& surface) {
-  Extent extent;
-  extent.reach_mm.fill(-std::numeric_limits<double>::infinity());
-  for (const auto& triangle : surface.triangles) {
-    for (const std::uint32_t corner : triangle) {
-      for (std::size_t k = 0; k < extent.reach_mm.size(); ++k) {
-        extent.reach_mm[k] = std::max(extent.reach_mm[k], directions()[k].dot(surface.vertices[corner]));
-      }
-    }
-  }
-  return extent;
-}
-
-bool clear_of(const Extent& extent, const Vec3& disc_centre, const Vec3& disc_normal, double radius_mm,
-              const Vec3& eye) {
-  constexpr double kRounding_mm = 1e-6;  // a disc may lie flat on the surface
-  for (std::size_t k = 0; k < extent.reach_mm.size(); ++k) {
-    const Vec3& way = directions()[k];
-    const double plane = extent.reach_mm[k] - kRounding_mm;
-    if (way.dot(eye) < plane) continue;
-    const double tilt = way.dot(disc_normal);
-    const double half = radius_mm * std::sqrt(std::max(0.0, 1 - tilt * tilt));
-    if (way.dot(disc_centre) - half >= plane) return true;
-  }
-  return false;
-}
 
 bool blocks(const Shape& shape, const Vec3& from, const Vec3& to) {
   return std::visit([&](const auto& solid) { return blocks_solid(solid, from, to); }, shape);

@@ -115,8 +115,8 @@ Hiding::Hiding(const Scene& scene, std::size_t index) {
   }
   for (const SceneMesh& mesh : scene.meshes) {
     const RigidMotion& there = mesh.carrier_from_camera;
-    if (!clear_of(mesh.solid->extent, there * disc.place.centre, there.rotation * disc.place.normal,
-                  disc.place.radius_mm, there.translation))
+    if (!out_of_reach(mesh.solid->slabs, there * disc.place.centre, there.rotation * disc.place.normal,
+                      disc.place.radius_mm, there.translation))
       meshes_.push_back(&mesh);
   }
   for (const SceneDisc& other : scene.discs) {

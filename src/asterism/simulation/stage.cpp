@@ -13,7 +13,7 @@ namespace {
 
 StageSolid ready(const Cell& cell, const Solid& solid) {
   const TriangleMesh surface = moved(*solid.surface, solid.carrier_from_solid);
-  return {mover_index(cell, solid.body), RayScene(surface), extent_of(surface)};
+  return {mover_index(cell, solid.body), RayScene(surface), slabs_of(surface)};
 }
 
 /// What is seen of the cell in its pictures. Lines that a lens bends are drawn in pieces of some 60 px.

@@ -5,7 +5,7 @@
 
 #include "asterism/cell/cell.hpp"
 #include "asterism/geometry/ray_scene.hpp"
-#include "asterism/simulation/rays.hpp"
+#include "asterism/geometry/slabs.hpp"
 #include "asterism/simulation/surface.hpp"
 
 namespace asterism {
@@ -14,7 +14,7 @@ namespace asterism {
 struct StageSolid {
   int carrier = -1;  // a mover; −1 = stands in `tracker`
   RayScene tree;
-  Extent extent;
+  Slabs slabs;  // they tell what it cannot hide
 };
 
 /// A fault with the places of its body and target instead of their names.

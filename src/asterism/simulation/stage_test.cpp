@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "asterism/cell/occluders.hpp"
-#include "asterism/core/random.hpp"
 #include "asterism/core/result.hpp"
 #include "asterism/simulation/test_cell.hpp"
 #include "asterism/simulation/truth.hpp"
@@ -52,28 +50,6 @@ TEST(StageOf, SaysWhichFaultIsOfATargetThatIsNotThere) {
     EXPECT_NE(std::string(error.what()).find("P9"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("platform"), std::string::npos);
   }
-}
-
-TEST(ClearOf, NeverClearsADiscThatARayFindsHidden) {
-  const TriangleMesh surface = mesh_of(CasingShape{});
-  const RayScene tree(surface);
-  const Extent extent = extent_of(surface);
-  int cleared = 0;
-  for (std::uint64_t i = 0; i < 3000; ++i) {
-    RandomStream random(4, i);
-    const auto within = [&](double reach) {
-      return Vec3{random.uniform(-reach, reach), random.uniform(-reach, reach),
-                  random.uniform(-reach, reach)};
-    };
-    const Vec3 centre = within(700) + Vec3(0, 0, 300);
-    const Vec3 normal = within(1).normalized();
-    const Vec3 eye = within(1).normalized() * 2300;
-    if (!clear_of(extent, centre, normal, 10, eye)) continue;
-    ++cleared;
-    const Vec3 across = normal.unitOrthogonal();
-    for (const double at : {-9.9, 0.0, 9.9}) EXPECT_FALSE(tree.blocked(centre + at * across, eye));
-  }
-  EXPECT_GT(cleared, 500);  // and it does clear many
 }
 
 }  // namespace
