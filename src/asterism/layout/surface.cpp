@@ -117,13 +117,6 @@ double distance_of(const Frustum& cone, const Vec3& point) {
   return within ? -nearest : nearest;
 }
 
-/// Two directions along the surface.
-std::array<Vec3, 2> along_surface(const Vec3& normal) {
-  const Vec3 aside = std::abs(normal.z()) < 0.9 ? Vec3(Vec3::UnitZ()) : Vec3(Vec3::UnitX());
-  const Vec3 u = normal.cross(aside).normalized();
-  return {u, normal.cross(u)};
-}
-
 }  // namespace
 
 Place nearest_place(const DeployableSurface& surface, const Vec3& point) {
@@ -140,6 +133,12 @@ Place nearest_place(const DeployableSurface& surface, const Vec3& point) {
     nearest.patch = i;
   }
   return nearest;
+}
+
+std::array<Vec3, 2> along_surface(const Vec3& normal) {
+  const Vec3 aside = std::abs(normal.z()) < 0.9 ? Vec3(Vec3::UnitZ()) : Vec3(Vec3::UnitX());
+  const Vec3 u = normal.cross(aside).normalized();
+  return {u, normal.cross(u)};
 }
 
 double distance_from(const Shape& shape, const Vec3& in_shape) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,9 @@ struct Place {
 
 /// The place of the patches that is nearest to a point, keep-outs left aside.
 [[nodiscard]] Place nearest_place(const DeployableSurface& surface, const Vec3& point);
+
+/// Two directions along a surface that faces this way, at right angles.
+[[nodiscard]] std::array<Vec3, 2> along_surface(const Vec3& normal);
 
 /// Distance from a solid, mm; negative inside.
 [[nodiscard]] double distance_from(const Shape& shape, const Vec3& in_shape);

@@ -87,8 +87,12 @@ std::string text_of_value(const std::optional<double>& value) {
 }
 
 std::vector<std::string> broken_constraints(const LayoutDesign& design) {
+  return broken_constraints(design.constraints);
+}
+
+std::vector<std::string> broken_constraints(std::span<const ConstraintState> constraints) {
   std::vector<std::string> broken;
-  for (const ConstraintState& state : design.constraints) {
+  for (const ConstraintState& state : constraints) {
     if (!(state.violation > 0)) continue;
     const std::string unit = state.unit.empty() || state.unit == "targets" ? "" : " " + state.unit;
     const std::string is =

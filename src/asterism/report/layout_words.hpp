@@ -19,6 +19,7 @@ namespace asterism {
 [[nodiscard]] std::string text_of_value(const std::optional<double>& value);
 
 /// Each constraint that does not hold: "visible is 3, at least 5 asked: 2 missing".
+[[nodiscard]] std::vector<std::string> broken_constraints(std::span<const ConstraintState> constraints);
 [[nodiscard]] std::vector<std::string> broken_constraints(const LayoutDesign& design);
 
 /// Where the worst is and why: error, error after losses, visibility, what it can be taken for.
