@@ -200,14 +200,15 @@ void add_optimize_layout(CLI::App& layout, Common& common) {
 }  // namespace
 
 void add_layout(CLI::App& root, Common& common) {
-  CLI::App* layout =
-      root.add_subcommand("layout", "Where to put the targets: scores layouts, finds new ones");
+  CLI::App* layout = root.add_subcommand(
+      "layout", "Where to put the targets: scores layouts, finds new ones, suggests what to change next");
   layout->footer(
       "Example:\n  asterism layout optimize engine_casing --out out/layouts\n"
-      "`asterism layout evaluate --help` and `asterism layout optimize --help` show their options.");
+      "`asterism layout evaluate --help`, `… optimize --help` and `… suggest --help` show their options.");
   layout->require_subcommand(1);
   add_evaluate_layout(*layout, common);
   add_optimize_layout(*layout, common);
+  add_suggest_layout(*layout, common);
 }
 
 }  // namespace asterism::app
