@@ -186,6 +186,9 @@ describe('axes and tables', () => {
     expect(cellText(0.09, 4)).toBe('0.0900');
     expect(cellText(12345, 0)).toBe('12\u202f345');
     expect(cellText(null, 2)).toBe('–');
+    expect(cellText(1e-6, placesOf([1e-6, 0.7]))).toBe('0.000001');
+    expect(cellText(0.7, 9)).toBe('0.7');
+    expect(cellText(3, 9)).toBe('3');
   });
 });
 
