@@ -99,10 +99,8 @@ Vec2 offset_of(int sample, int samples) {
 }
 
 /// The first whole number that is not less, within the tile.
-int first_from(double place, int size) {
-  const double within = std::clamp<double>(place, 0, size);
-  const int whole = static_cast<int>(within);
-  return whole < within ? whole + 1 : whole;
+ASTERISM_INLINE int first_from(double place, double size) {
+  return static_cast<int>(std::ceil(std::min(std::max(place, 0.0), size)));
 }
 
 struct SampleRow {
@@ -203,6 +201,7 @@ ASTERISM_INLINE FloatLanes inverse_root(const FloatLanes& x) {
   bits = 0x5f3759df - (bits >> 1);
   FloatLanes root;
   std::memcpy(&root, &bits, sizeof root);
+#pragma GCC unroll 3
   for (int step = 0; step < 3; ++step) root = root * (1.5F - 0.5F * x * root * root);
   return root;
 }
@@ -211,6 +210,7 @@ ASTERISM_INLINE FloatLanes inverse_root(const FloatLanes& x) {
 ASTERISM_INLINE FloatLanes light_of(const ScreenTriangle& triangle, const FloatLanes& x, float y,
                                     float specular) {
   FloatLanes dot = {}, normal2 = {}, sight2 = {};
+#pragma GCC unroll 3
   for (std::size_t k = 0; k < 3; ++k) {
     const FloatLanes n = (triangle.normal.at[k] + triangle.normal.by_y[k] * y) + triangle.normal.by_x[k] * x;
     const FloatLanes s = (triangle.sight.at[k] + triangle.sight.by_y[k] * y) + triangle.sight.by_x[k] * x;
@@ -220,9 +220,18 @@ ASTERISM_INLINE FloatLanes light_of(const ScreenTriangle& triangle, const FloatL
   }
   dot = dot < 0 ? -dot : dot;
   const FloatLanes cosine = dot * inverse_root(normal2 * sight2);
+  if (specular == 0) return triangle.level * cosine;
   FloatLanes mirrored = cosine;
+#pragma GCC unroll 8
   for (int doubling = 0; doubling < 8; ++doubling) mirrored *= mirrored;
   return triangle.level * cosine + specular * mirrored;
+}
+
+ASTERISM_INLINE void add_to(float* to, const FloatLanes& more) {
+  FloatLanes sum;
+  std::memcpy(&sum, to, sizeof sum);
+  sum += more;
+  std::memcpy(to, &sum, sizeof sum);
 }
 
 /// Adds the light of `count` pixels side by side, the first at `px`.
@@ -233,7 +242,12 @@ ASTERISM_CLONES void add_run(const ScreenTriangle& triangle, const Vec2& px, int
   const auto y = static_cast<float>(px.y()) - triangle.y0;
   for (int i = 0; i < count; i += kFloatLanes) {
     const FloatLanes found = light_of(triangle, first + static_cast<float>(i) + kSteps, y, specular);
-    for (int k = 0; k < std::min(kFloatLanes, count - i); ++k) {
+    if (i + kFloatLanes <= count) {
+      add_to(light + i, weight * found);
+      add_to(share + i, weight - FloatLanes{});
+      continue;
+    }
+    for (int k = 0; i + k < count; ++k) {
       light[i + k] += weight * found[k];
       share[i + k] += weight;
     }
