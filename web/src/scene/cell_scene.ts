@@ -36,6 +36,7 @@ export interface CellSceneView extends Pick<Stage, 'element' | 'refresh' | 'stil
 }
 
 const kSnap = 11;  // px
+const kFromAbove: Vec3 = [-0.42, -0.62, -0.5];  // so that tracker and part, side by side, fill the view
 
 /// The cell in motion: what each camera sees of the targets, and what that is worth on the part.
 export function cellScene(report: CellReport, meshes: Mesh[], scales: CellScales, first: CellSelection): CellSceneView {
@@ -115,7 +116,7 @@ export function cellScene(report: CellReport, meshes: Mesh[], scales: CellScales
     const part = carried(report, meshes, report.body).map((point) => apply(carrierMotion(report, report.body, now.frame), point));
     if (from === 'left camera' || from === 'right camera') stage.stand(middle(part), from === 'left camera' ? [0, 0, 0] : scales.right);
     else if (from === 'part') stage.see(part, [-0.35, -0.5, -0.8]);
-    else stage.see([...scales.places, [0, 0, 0], scales.right], kDirections[from]);
+    else stage.see([...scales.places, [0, 0, 0], scales.right], from === 'cell' ? kFromAbove : kDirections[from]);
   };
   const spots = namedSpots(report);
   const pick = (x: number, y: number): Spot | null => {
