@@ -19,7 +19,9 @@ PoseEstimate estimate_of(const MotionState& state, const Mat6& systematic) {
 
 std::optional<PoseEstimate> PoseFilter::predict(double time_s) const {
   if (!memory_ || time_s - memory_->state.time_s > options_.coast_max_s) return std::nullopt;
-  return estimate_of(predicted(memory_->state, time_s, options_).state, memory_->systematic);
+  MotionState state = predicted(memory_->state, time_s, options_).state;
+  state.covariance *= doubt_;
+  return estimate_of(state, memory_->systematic);
 }
 
 BodyPose PoseFilter::update(double time_s, const BodyPose& measured) {
@@ -34,9 +36,14 @@ BodyPose PoseFilter::update(double time_s, const BodyPose& measured) {
       update = updated(memory_->state, memory_->fresh, time_s, raw.tracker_from_body, noise, options_);
     const bool fits = update && update->nis < chi_square_quantile(1 - options_.gate_probability, 6);
     misfits_ = fits || !memory_ ? 0 : misfits_ + 1;
+    doubt_ = fits || !update ? 1
+                             : contradiction(update->before.state.tracker_from_body,
+                                             update->before.state.covariance.topLeftCorner<6, 6>(),
+                                             raw.tracker_from_body);
     if (!memory_ || misfits_ > 1) {
       memory_ = Memory{first_state(time_s, raw.tracker_from_body, noise, options_), raw.systematic, true};
       misfits_ = 0;
+      doubt_ = 1;
       return filtered;
     }
     if (fits) {

@@ -104,6 +104,36 @@ TEST(PoseFilter, LeavesOutOnePoseThatDoesNotFitAndStartsAgainAtTheSecond) {
   }
 }
 
+TEST(PoseFilter, DoubtsItsPredictionWhileAPoseContradictsIt) {
+  const FilterOptions options;
+  for (std::uint64_t run = 0; run < 20; ++run) {
+    RandomStream random(56, run);
+    MovingBody body(options, random);
+    PoseFilter filter(options);
+    for (int frame = 0; frame < 20; ++frame) {
+      body.move(0.02, random);
+      (void)filter.update(body.time_s, body.measured(random));
+    }
+    // The body is thrown aside, farther than the motion allows for.
+    body.move(0.02, random);
+    body.truth.translation += Vec3(0, 300, 100);
+    body.truth.rotation = (exp_rotation({0.5, 0, 0.2}) * body.truth.rotation).normalized();
+    const BodyPose predicted = filter.update(body.time_s, body.measured(random));
+    ASSERT_EQ(predicted.status, PoseStatus::Predicted);
+    EXPECT_LT(nees(*predicted.estimate, body.truth), 13);  // 95 % of χ² with six degrees
+    // Nothing seen in the next frame: the doubt stays.
+    body.time_s += 0.02;
+    const BodyPose unseen = filter.update(body.time_s, BodyPose{});
+    ASSERT_EQ(unseen.status, PoseStatus::Predicted);
+    EXPECT_LT(nees(*unseen.estimate, body.truth), 13);
+    // Seen again where it was thrown: the filter starts anew and is as sure as the pose is.
+    const BodyPose raw = body.measured(random);
+    const BodyPose again = filter.update(body.time_s, raw);
+    ASSERT_EQ(again.status, PoseStatus::Ok);
+    EXPECT_EQ(again.estimate->covariance, raw.estimate->covariance);
+  }
+}
+
 TEST(PoseFilter, NeverAveragesASystematicErrorAway) {
   FilterOptions options;
   options.rate_wander_deg_s = options.speed_wander_mm_s = 0.1;

@@ -59,7 +59,8 @@ bool FusedFilter::alive(const Memory& memory, double time_s) const {
 std::optional<PoseEstimate> FusedFilter::predicted_by(const Memory& memory, double time_s) const {
   if (!alive(memory, time_s)) return std::nullopt;
   const FusedState state = carried_to(memory.state, time_s, motion_, options_.correlation_s);
-  return PoseEstimate{state.tracker_from_body, state.covariance.topLeftCorner<6, 6>() + memory.systematic,
+  return PoseEstimate{state.tracker_from_body,
+                      memory.doubt * state.covariance.topLeftCorner<6, 6>() + memory.systematic,
                       memory.systematic};
 }
 
@@ -84,11 +85,15 @@ BodyPose FusedFilter::take_pose(Memory& memory, double time_s, const BodyPose& m
     const PoseEstimate& raw = measured.estimate.value();
     const Mat6 noise = raw.covariance - raw.systematic;
     std::optional<Correction> correction;
+    double contradicted = 1;
     if (known) {
       const auto before = [&](const FusedState& state) {
         return carried_to(state, time_s, motion_, options_.correlation_s);
       };
-      correction = corrected_by_pose(before(memory.state), raw.tracker_from_body, noise);
+      const FusedState expected = before(memory.state);
+      correction = corrected_by_pose(expected, raw.tracker_from_body, noise);
+      contradicted = contradiction(expected.tracker_from_body, expected.covariance.topLeftCorner<6, 6>(),
+                                   raw.tracker_from_body);
       if (memory.fresh) {
         const FusedState turning = set_turning(memory.state, time_s, raw.tracker_from_body);
         correction->state = corrected_by_pose(before(turning), raw.tracker_from_body, noise).state;
@@ -96,11 +101,13 @@ BodyPose FusedFilter::take_pose(Memory& memory, double time_s, const BodyPose& m
     }
     const bool fits = correction && correction->nis < pose_gate_;
     memory.misfits = fits || !known ? 0 : memory.misfits + 1;
+    memory.doubt = fits ? 1 : contradicted;
     if (!known || memory.misfits > 1) {
       memory.state = started(memory.state, time_s, raw.tracker_from_body, noise, motion_);
       memory.systematic = raw.systematic;
       memory.seen = memory.fresh = true;
       memory.misfits = 0;
+      memory.doubt = 1;
       return filtered;
     }
     if (fits) {
@@ -116,6 +123,7 @@ BodyPose FusedFilter::take_pose(Memory& memory, double time_s, const BodyPose& m
                     : is_measured(measured) ? PoseStatus::Lost
                                             : measured.status;
   filtered.targets = 0;
+  filtered.rejected.clear();
   filtered.rms_px = 0;
   return filtered;
 }

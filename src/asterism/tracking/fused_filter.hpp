@@ -69,6 +69,7 @@ class FusedFilter {
     bool fresh = false;  // one pose alone: the twist is not known yet
     Mat6 systematic = Mat6::Zero();
     int misfits = 0, refused = 0;  // in a row, of poses and of readings
+    double doubt = 1;              // by which predictions are widened while a pose contradicts the motion
   };
   struct Event {
     double time_s;  // it tells of

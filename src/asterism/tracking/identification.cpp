@@ -66,7 +66,7 @@ std::optional<BodyLabels> report(const Choice& choice, const LabellingSearch& se
   const auto body = static_cast<std::size_t>(whole.body);
   const auto prior = priors.empty() ? std::optional<PriorPose>() : priors[body];
   BodyLabels told{whole.body, choice.status, {}, {}, 0, 0};
-  if (!search.complete[body]) told.status = LabelStatus::Ambiguous;
+  if (!search.complete[body] || !whole.decided) told.status = LabelStatus::Ambiguous;
 
   Labelling kept = whole;
   if (told.status == LabelStatus::Ok && choice.certain.size() < whole.labels.size()) {

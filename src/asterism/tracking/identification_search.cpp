@@ -259,7 +259,7 @@ LabellingSearch find_labellings(const PointScene& scene, const BodyCatalogue& ca
         // Labellings with fewer labels were not all seen, nor are they rivals worth the name: a point that
         // completes the larger one by accident is rarer than what is taken for certain.
         if (!labelling) continue;
-        if (labelling->prior_gain < min_gain) search.complete[body] = false;
+        labelling->decided = labelling->prior_gain >= min_gain;
         near = near || labelling->near_prior;
         add(search, std::move(*labelling));
       }

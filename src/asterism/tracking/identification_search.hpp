@@ -30,6 +30,7 @@ struct Labelling {
   double log_accidental = 0;  // ln of how many such fits chance would make
   bool near_prior = false;
   double prior_gain = 0;  // by how much `cost` is less than it were far from the prior
+  bool decided = true;    // false: found only near a prior that does not rule out rivals not sought
 };
 
 struct LabellingSearch {

@@ -101,6 +101,21 @@ TEST(Identify, FindsABodyOfThreeTargetsWhenThereIsLittleElse) {
   EXPECT_TRUE(identify(seen, {kTriangle}).empty()) << "a thousand points hold many triangles";
 }
 
+TEST(Identify, IsNotMadeToDoubtByAWrongPriorNearWhichThreePointsHappenToFit) {
+  // The body is where the frame shows it whole; the prior is far off, vague, and three ghosts fit it.
+  const RigidMotion astray{(exp_rotation({0, 0, 2.9}) * kThere.rotation).normalized(),
+                           kThere.translation + Vec3(600, 0, 200)};
+  Seen seen;
+  seen.add(0, kPlatform, kThere, all_targets(kPlatform));
+  for (const int target : {0, 1, 3})
+    seen.add(astray * kPlatform.targets[static_cast<std::size_t>(target)].position);
+  const auto found = identify(seen, {kPlatform}, {prior_at(astray, 0.35, 200)});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].status, LabelStatus::Ok);
+  EXPECT_EQ(found[0].points.size(), 6u);
+  EXPECT_TRUE(all_right(found[0], seen));
+}
+
 TEST(Identify, RefusesCollinearTargetsWhichLeaveTheTurnAboutTheirLineOpen) {
   Seen seen;
   seen.add(0, kRod, kThere, all_targets(kRod));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "asterism/tracking/motion_model.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "asterism/core/result.hpp"
@@ -108,6 +109,12 @@ Update updated(const MotionState& state, bool fresh, double time_s, const RigidM
   keep.leftCols<6>() -= gain;
   update.state.covariance = keep * before.covariance * keep.transpose() + gain * noise * gain.transpose();
   return update;
+}
+
+double contradiction(const RigidMotion& predicted, const Mat6& covariance, const RigidMotion& measured) {
+  const Vec6 off = difference(measured, predicted);
+  const auto weighted = solve_positive(covariance, off);
+  return weighted ? std::max(1.0, off.dot(*weighted) / 6) : 1.0;
 }
 
 Vec12 difference(const MotionState& to, const MotionState& from) {

@@ -56,6 +56,11 @@ struct Update {
 [[nodiscard]] Update updated(const MotionState& state, bool fresh, double time_s, const RigidMotion& measured,
                              const Mat6& noise, const FilterOptions& options);
 
+/// By how much a prediction's covariance falls short of a pose that contradicts it: widened so far, its
+/// distance from that pose is what six honest coordinates have on average. At least 1.
+[[nodiscard]] double contradiction(const RigidMotion& predicted, const Mat6& covariance,
+                                   const RigidMotion& measured);
+
 /// The error that takes `from` to `to`, and the state moved by an error.
 [[nodiscard]] Vec12 difference(const MotionState& to, const MotionState& from);
 [[nodiscard]] MotionState moved(const MotionState& state, const Vec12& error);
