@@ -161,7 +161,7 @@ TEST(SuggestChanges, ThreeMovesBringAPoorLayoutNearTheBestThatMovesCanReach) {
 
 TEST(SuggestChanges, AnUnsoundTargetIsLearntAnewOrTakenAwayForNothing) {
   const Cell cell = seen_cell();
-  ObservedSights observed{all_unhidden(), 1U << 4};
+  ObservedSights observed{all_unhidden(), 1U << 4, {}};
   const Suggestion suggestion = suggest(cell, few_places(), observed);
   EXPECT_EQ(suggestion.present.visible, 5);
   ASSERT_EQ(suggestion.relearnings.size(), 1U);
@@ -176,7 +176,7 @@ TEST(SuggestChanges, AnUnsoundTargetIsLearntAnewOrTakenAwayForNothing) {
 
 TEST(SuggestChanges, WhatWasObservedCountsForTheOldPlaceOnly) {
   const Cell cell = seen_cell();
-  ObservedSights observed{all_unhidden(), 0};
+  ObservedSights observed{all_unhidden(), 0, {}};
   for (std::size_t pose = 4; pose < 10; ++pose) observed.unhidden.seen[pose][1] &= ~TargetMask{1 << 1};
   const Suggestion suggestion = suggest(cell, few_places(), observed);
   EXPECT_EQ(suggestion.present.visible, 5);
@@ -188,7 +188,7 @@ TEST(SuggestChanges, WhatWasObservedCountsForTheOldPlaceOnly) {
     EXPECT_EQ(change.after.visible, change.id == "P2" ? 6 : 5) << change.id;
   }
   // Taken away, the targets behind it keep what was observed of them.
-  observed = {all_unhidden(), 0};
+  observed = {all_unhidden(), 0, {}};
   observed.unhidden.seen[3][0] &= ~TargetMask{1 << 5};
   const Suggestion behind = suggest(cell, few_places("remove"), observed);
   EXPECT_EQ(behind.without[1].visible, 4);
