@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kSamples = 4;
 constexpr std::int32_t kNothing = -1;
+static_assert(kSamples == kDoubleLanes);
 constexpr int kFloatLanes = sizeof(FloatLanes) / sizeof(float);
 constexpr double kNearest_mm = 1;
 constexpr double kLeastArea_px2 = 1e-7;
@@ -98,99 +99,113 @@ Vec2 offset_of(int sample, int samples) {
   return samples == 1 ? Vec2(0, 0) : kSpread[static_cast<std::size_t>(sample)];
 }
 
-/// The first whole number that is not less, within the tile.
-ASTERISM_INLINE int first_from(double place, double size) {
-  return static_cast<int>(std::ceil(std::min(std::max(place, 0.0), size)));
-}
-
 struct SampleRow {
   float* inverse_depth;
   std::int32_t* number;
 };
 
-/// Keeps the nearer of what is there and a triangle whose inverse depth runs along the row.
+/// Keeps the nearer of what is there and a triangle whose inverse depth runs along the row. Rows are followed
+/// by others or by room for one lane.
 ASTERISM_INLINE void draw_row(const SampleRow& row, int first, int end, float at_zero, float by_x,
                               std::int32_t number) {
   const FloatLanes kSteps = {0, 1, 2, 3, 4, 5, 6, 7};
-  int x = first;
-  for (; x + kFloatLanes <= end; x += kFloatLanes) {
+  for (int x = first; x < end; x += kFloatLanes) {
     FloatLanes nearest;
     IntLanes owner;
     std::memcpy(&nearest, row.inverse_depth + x, sizeof nearest);
     std::memcpy(&owner, row.number + x, sizeof owner);
     const FloatLanes here = at_zero + by_x * (static_cast<float>(x) + kSteps);
-    const IntLanes nearer = here > nearest;
+    const IntLanes nearer = (here > nearest) & (kSteps < static_cast<float>(end - x));
     nearest = nearer ? here : nearest;
     owner = nearer ? number - IntLanes{} : owner;
     std::memcpy(row.inverse_depth + x, &nearest, sizeof nearest);
     std::memcpy(row.number + x, &owner, sizeof owner);
   }
-  for (; x < end; ++x) {
-    const float here = at_zero + by_x * static_cast<float>(x);
-    if (here <= row.inverse_depth[x]) continue;
-    row.inverse_depth[x] = here;
-    row.number[x] = number;
-  }
 }
 
-/// What lies between the sides of a triangle at the height `y`, in columns of a tile.
+ASTERISM_INLINE DoubleLanes larger(const DoubleLanes& a, const DoubleLanes& b) { return a > b ? a : b; }
+ASTERISM_INLINE DoubleLanes smaller(const DoubleLanes& a, const DoubleLanes& b) { return a < b ? a : b; }
+
+/// The first whole numbers that are not less, from 0 to `size`.
+ASTERISM_INLINE std::array<int, kDoubleLanes> first_from(const DoubleLanes& place, double size) {
+  const DoubleLanes within = smaller(larger(place, DoubleLanes{}), size - DoubleLanes{});
+  std::array<int, kDoubleLanes> first{};
+#pragma GCC unroll 4
+  for (std::size_t k = 0; k < kDoubleLanes; ++k) {
+    const int whole = static_cast<int>(within[k]);
+    first[k] = whole + static_cast<int>(whole < within[k]);
+  }
+  return first;
+}
+
+/// What lies between the sides of a triangle.
 struct Between {
   std::array<ScreenTriangle::Side, 2> left{}, right{};  // two of each: one may stand twice
-  double x0;
 
-  Between(const ScreenTriangle& triangle, double first_x) : x0(first_x) {
-    int lefts = 0, rights = 0;
+  explicit Between(const ScreenTriangle& triangle) {
+    std::size_t lefts = 0, rights = 0;
     for (const ScreenTriangle::Side& side : triangle.sides) {
-      if (side.from > 0) left[static_cast<std::size_t>(lefts++)] = side;
-      if (side.from < 0) right[static_cast<std::size_t>(rights++)] = side;
+      if (side.from > 0) left[lefts++] = side;
+      if (side.from < 0) right[rights++] = side;
     }
     if (lefts == 1) left[1] = left[0];
     if (rights == 1) right[1] = right[0];
   }
-  [[nodiscard]] double begin(double y) const {
-    return std::max(left[0].at_zero + left[0].by_y * y, left[1].at_zero + left[1].by_y * y) - x0;
+  [[nodiscard]] ASTERISM_INLINE DoubleLanes begin(const DoubleLanes& y) const {
+    return larger(left[0].at_zero + left[0].by_y * y, left[1].at_zero + left[1].by_y * y);
   }
-  [[nodiscard]] double end(double y) const {
-    return std::min(right[0].at_zero + right[0].by_y * y, right[1].at_zero + right[1].by_y * y) - x0;
+  [[nodiscard]] ASTERISM_INLINE DoubleLanes end(const DoubleLanes& y) const {
+    return smaller(right[0].at_zero + right[0].by_y * y, right[1].at_zero + right[1].by_y * y);
   }
-  /// Neither reaches into the tile's columns from one height to another: sides are straight.
-  [[nodiscard]] bool misses(double low, double high, int size) const {
+  /// Never comes between two columns while it goes from one height to another: sides are straight.
+  [[nodiscard]] bool misses(double top, double bottom, double from_x, double to_x) const {
+    const auto at = [](const ScreenTriangle::Side& side, double y) { return side.at_zero + side.by_y * y; };
     for (std::size_t k = 0; k < 2; ++k) {
-      const auto at = [&](const ScreenTriangle::Side& side, double y) {
-        return side.at_zero + side.by_y * y - x0;
-      };
-      if (std::min(at(left[k], low), at(left[k], high)) > size) return true;
-      if (std::max(at(right[k], low), at(right[k], high)) < 0) return true;
+      if (std::min(at(left[k], top), at(left[k], bottom)) > to_x) return true;
+      if (std::max(at(right[k], top), at(right[k], bottom)) < from_x) return true;
     }
     return false;
   }
 };
 
-/// One of a tile's grids of samples.
+/// A tile's grids of samples, of which four rows are drawn at once: those of one row of pixels, or with one
+/// sample a pixel four rows of them.
 struct SampleGrid {
   SampleRow first;
-  Vec2 origin;  // px of its first sample
-  int size;
+  int x0, y0, size, samples;
 };
 
 ASTERISM_CLONES void draw_samples(const SampleGrid& grid, const ScreenTriangle& triangle,
                                   std::int32_t number) {
-  const int first_y = first_from(triangle.top - grid.origin.y(), grid.size);
-  const int end_y = first_from(triangle.bottom - grid.origin.y(), grid.size);
-  if (first_y >= end_y) return;
-  const Between between(triangle, grid.origin.x());
-  if (between.misses(first_y + grid.origin.y(), end_y + grid.origin.y(), grid.size)) return;
-  const float to_grid = triangle.inverse_depth_by_x * (static_cast<float>(grid.origin.x()) - triangle.x0);
-  for (int y = first_y; y < end_y; ++y) {
-    const double height = y + grid.origin.y();
-    const int first_x = first_from(between.begin(height), grid.size);
-    const int end_x = first_from(between.end(height), grid.size);
-    if (first_x >= end_x) continue;
-    const float at_zero = triangle.inverse_depth + to_grid +
-                          triangle.inverse_depth_by_y * (static_cast<float>(height) - triangle.y0);
-    const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(y) * grid.size;
-    draw_row({grid.first.inverse_depth + row, grid.first.number + row}, first_x, end_x, at_zero,
-             triangle.inverse_depth_by_x, number);
+  const bool one = grid.samples == 1;
+  const int first_y = static_cast<int>(std::clamp<double>(triangle.top - grid.y0 - 1, 0, grid.size));
+  const int end_y = static_cast<int>(std::clamp<double>(triangle.bottom - grid.y0 + 2, 0, grid.size));
+  const Between between(triangle);
+  if (first_y >= end_y ||
+      between.misses(grid.y0 + first_y - 1, grid.y0 + end_y + 1, grid.x0 - 1, grid.x0 + grid.size))
+    return;
+  const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(grid.size) * grid.size;
+  DoubleLanes shift_x{}, shift_y{};
+  for (int k = 0; k < kSamples; ++k) {
+    shift_x[k] = grid.x0 + (one ? 0.0 : offset_of(k, kSamples).x());
+    shift_y[k] = grid.y0 + (one ? k : offset_of(k, kSamples).y());
+  }
+  for (int y = first_y; y < end_y; y += one ? kSamples : 1) {
+    const DoubleLanes height = y + shift_y;
+    const auto begin = first_from(between.begin(height) - shift_x, grid.size);
+    const auto end = first_from(between.end(height) - shift_x, grid.size);
+    for (std::size_t k = 0; k < kSamples; ++k) {
+      const int row = one ? y + static_cast<int>(k) : y;
+      if (begin[k] >= end[k] || height[k] < triangle.top || height[k] >= triangle.bottom || row >= grid.size)
+        continue;
+      const std::ptrdiff_t at =
+          row * static_cast<std::ptrdiff_t>(grid.size) + (one ? 0 : static_cast<std::ptrdiff_t>(k) * plane);
+      const float at_zero = triangle.inverse_depth +
+                            triangle.inverse_depth_by_x * (static_cast<float>(shift_x[k]) - triangle.x0) +
+                            triangle.inverse_depth_by_y * (static_cast<float>(height[k]) - triangle.y0);
+      draw_row({grid.first.inverse_depth + at, grid.first.number + at}, begin[k], end[k], at_zero,
+               triangle.inverse_depth_by_x, number);
+    }
   }
 }
 
@@ -282,16 +297,13 @@ SampledTile::SampledTile(int x0, int y0, int size, int samples)
       y0_(y0),
       size_(size),
       samples_(samples),
-      inverse_depth_(row_of(samples, 0), 0.0F),
-      number_(row_of(samples, 0), kNothing) {
+      inverse_depth_(row_of(samples, 0) + kFloatLanes, 0.0F),
+      number_(row_of(samples, 0) + kFloatLanes, kNothing) {
   require(samples == 1 || samples == kSamples, "a pixel has one sample or four");
 }
 
 void SampledTile::draw(const ScreenTriangle& triangle, std::int32_t number) {
-  for (int sample = 0; sample < samples_; ++sample) {
-    const SampleRow first = {inverse_depth_.data() + row_of(sample, 0), number_.data() + row_of(sample, 0)};
-    draw_samples({first, Vec2(x0_, y0_) + offset_of(sample, samples_), size_}, triangle, number);
-  }
+  draw_samples({{inverse_depth_.data(), number_.data()}, x0_, y0_, size_, samples_}, triangle, number);
 }
 
 void SampledTile::add_light(std::span<const ScreenTriangle> triangles, float specular, float weight,
