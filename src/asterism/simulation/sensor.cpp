@@ -7,6 +7,7 @@
 
 #include "asterism/core/parallel.hpp"
 #include "asterism/core/result.hpp"
+#include "asterism/simulation/lanes.hpp"
 #include "asterism/simulation/streams.hpp"
 
 namespace asterism {
@@ -61,28 +62,63 @@ void fill_normal(float* out, int count, RandomStream random) {
   if (i < count) out[i] = table[random.bits() & 0xFFFFU];
 }
 
+/// What makes grey levels of light; electrons but for the last three.
+struct Conversion {
+  float full_well, read_variance;
+  float grey_per_electron, offset, ceiling;  // the offset with the half that rounds
+};
+
+/// Grey levels of lanes of light, not yet cut off behind the point.
+ASTERISM_INLINE FloatLanes grey_of(const FloatLanes& light, const FloatLanes& gain, const FloatLanes& noise,
+                                   const Conversion& how) {
+  FloatLanes electrons = how.full_well * light * gain;
+  electrons = electrons > 0 ? electrons : FloatLanes{};
+  const FloatLanes variance = electrons + how.read_variance;
+  const FloatLanes noisy = electrons + variance * inverse_root(variance) * noise;
+  FloatLanes grey = noisy * how.grey_per_electron + how.offset;
+  grey = grey > 0 ? grey : FloatLanes{};
+  return grey < how.ceiling ? grey : how.ceiling - FloatLanes{};
+}
+
+template <class Grey>
+ASTERISM_INLINE void fill_row(const float* light, const float* gain, const float* noise, Grey* to, int width,
+                              const Conversion& how) {
+  int x = 0;
+  for (; x + kFloatLanes <= width; x += kFloatLanes) {
+    using Lanes __attribute__((vector_size(kFloatLanes * sizeof(Grey)))) = Grey;
+    const FloatLanes grey = grey_of(lanes_from(light + x), lanes_from(gain + x), lanes_from(noise + x), how);
+    const auto cut = __builtin_convertvector(__builtin_convertvector(grey, IntLanes), Lanes);
+    std::memcpy(to + x, &cut, sizeof cut);
+  }
+  for (; x < width; ++x) {
+    const FloatLanes none = {};
+    to[x] = static_cast<Grey>(grey_of(light[x] + none, gain[x] + none, noise[x] + none, how)[0]);
+  }
+}
+
+ASTERISM_CLONES void fill_grey_row(const float* light, const float* gain, const float* noise,
+                                   std::uint8_t* to, int width, const Conversion& how) {
+  fill_row(light, gain, noise, to, width, how);
+}
+ASTERISM_CLONES void fill_grey_row(const float* light, const float* gain, const float* noise,
+                                   std::uint16_t* to, int width, const Conversion& how) {
+  fill_row(light, gain, noise, to, width, how);
+}
+
 template <class Grey>
 Raster<Grey> grey_levels(const Raster<float>& light, const Raster<float>& gain, const Sensor& sensor,
                          Side side, std::uint64_t seed, int frame) {
   Raster<Grey> image(light.width, light.height);
   constexpr auto kCeiling = static_cast<float>(std::numeric_limits<Grey>::max());
   const auto electrons = static_cast<float>(sensor.full_well_e);
-  const auto read_variance = static_cast<float>(sensor.read_noise_e * sensor.read_noise_e);
-  const float grey_per_electron = kCeiling / electrons;
-  const float offset = kCeiling * static_cast<float>(sensor.offset_level) + 0.5F;
+  const Conversion how = {electrons, static_cast<float>(sensor.read_noise_e * sensor.read_noise_e),
+                          kCeiling / electrons, kCeiling * static_cast<float>(sensor.offset_level) + 0.5F,
+                          kCeiling};
   parallel_for(static_cast<std::size_t>(light.height), [&](std::size_t row) {
     const int y = static_cast<int>(row);
     std::vector<float> noise(static_cast<std::size_t>(light.width));
     fill_normal(noise.data(), light.width, stream_of(seed, frame, side, Purpose::PixelNoise, y));
-    const float* from = light.row(y);
-    const float* factor = gain.row(y);
-    Grey* to = image.row(y);
-    for (int x = 0; x < light.width; ++x) {
-      const float e = std::max(0.0F, electrons * from[x] * factor[x]);
-      const float noisy = e + std::sqrt(e + read_variance) * noise[static_cast<std::size_t>(x)];
-      const float grey = noisy * grey_per_electron + offset;
-      to[x] = static_cast<Grey>(std::min(std::max(grey, 0.0F), kCeiling));
-    }
+    fill_grey_row(light.row(y), gain.row(y), noise.data(), image.row(y), light.width, how);
   });
   return image;
 }

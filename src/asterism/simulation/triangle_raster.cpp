@@ -6,8 +6,8 @@
 #include <cstring>
 #include <optional>
 
-#include "asterism/core/lanes.hpp"
 #include "asterism/core/result.hpp"
+#include "asterism/simulation/lanes.hpp"
 
 namespace asterism {
 namespace {
@@ -15,7 +15,6 @@ namespace {
 constexpr int kSamples = 4;
 constexpr std::int32_t kNothing = -1;
 static_assert(kSamples == kDoubleLanes);
-constexpr int kFloatLanes = sizeof(FloatLanes) / sizeof(float);
 constexpr double kNearest_mm = 1;
 constexpr double kLeastArea_px2 = 1e-7;
 
@@ -207,18 +206,6 @@ ASTERISM_CLONES void draw_samples(const SampleGrid& grid, const ScreenTriangle& 
                triangle.inverse_depth_by_x, number);
     }
   }
-}
-
-/// 1 / √x by Newton from the well-known start: exact to single precision after three steps.
-ASTERISM_INLINE FloatLanes inverse_root(const FloatLanes& x) {
-  IntLanes bits;
-  std::memcpy(&bits, &x, sizeof bits);
-  bits = 0x5f3759df - (bits >> 1);
-  FloatLanes root;
-  std::memcpy(&root, &bits, sizeof root);
-#pragma GCC unroll 3
-  for (int step = 0; step < 3; ++step) root = root * (1.5F - 0.5F * x * root * root);
-  return root;
 }
 
 /// Light that comes back from places of the triangle, `x` and `y` told from its first corner.
