@@ -68,6 +68,7 @@ Result<Equations, AccuracyFailure> equations_of(std::span<const Target> targets,
     Mat6 own = Mat6::Zero();
     Mat3 place = Mat3::Zero();
     Mat36 tied = Mat36::Zero();
+    MatX place_by_rig = MatX::Zero(3, rig.covariance.cols());
     for (const Side side : {Side::Left, Side::Right}) {
       const TargetMask counts =
           options.single_views ? seen[static_cast<std::size_t>(side)] : seen[0] & seen[1];
@@ -81,12 +82,15 @@ Result<Equations, AccuracyFailure> equations_of(std::span<const Target> targets,
       const Mat3 tracker_from_camera = rig.camera_from_tracker(side).rotation.conjugate().toRotationMatrix();
       const MatX by_rig = pixel_by_rig(rig, side, view->in_tracker, view->by_point * tracker_from_camera);
       sum.cross += view->weight * view->by_pose.transpose() * by_rig;
+      place_by_rig += view->weight * view->by_point.transpose() * by_rig;
     }
     sum.of_centres += own;
     sum.whole += own;
     if (const auto map = target_for_lanes(targets[i], options).map) {
       const Mat3 in_tracker = tracker_from_body_rotation * *map * tracker_from_body_rotation.transpose();
-      sum.whole -= tied.transpose() * in_tracker * (Mat3::Identity() + place * in_tracker).inverse() * tied;
+      const Mat3 shared = in_tracker * (Mat3::Identity() + place * in_tracker).inverse();
+      sum.whole -= tied.transpose() * shared * tied;
+      sum.cross -= tied.transpose() * shared * place_by_rig;
     }
   }
   return sum;
