@@ -41,6 +41,12 @@ VecX symmetric_eigenvalues(const MatX& symmetric) {
   return Eigen::SelfAdjointEigenSolver<MatX>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
+MatX symmetric_root(const MatX& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<MatX> solver(symmetric);
+  const VecX roots = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  return solver.eigenvectors() * roots.asDiagonal() * solver.eigenvectors().transpose();
+}
+
 Svd3 svd(const Mat3& matrix) {
   const Eigen::JacobiSVD<Mat3> solver(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return {solver.matrixU(), solver.singularValues(), solver.matrixV()};

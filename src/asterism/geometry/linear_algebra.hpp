@@ -28,6 +28,10 @@ struct SymmetricEigen2 {
 /// Eigenvalues of a symmetric matrix of any size, ascending.
 [[nodiscard]] VecX symmetric_eigenvalues(const MatX& symmetric);
 
+/// The symmetric root of a positive semidefinite matrix: covariance = root · root. What rounding made
+/// negative counts as zero.
+[[nodiscard]] MatX symmetric_root(const MatX& symmetric);
+
 struct Svd3 {
   Mat3 u;
   Vec3 singular_values;  // descending
