@@ -31,6 +31,7 @@ void add_body(CLI::App& root, Common& common);
 void add_reproduce(CLI::App& root, Common& common);
 void add_layout(CLI::App& root, Common& common);
 void add_schema(CLI::App& root, Common& common);
+void add_verify(CLI::App& root, Common& common);
 void add_suggest_layout(CLI::App& layout, Common& common);  // under `layout`
 
 }  // namespace asterism::app
