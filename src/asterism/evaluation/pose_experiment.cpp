@@ -136,9 +136,7 @@ Result<Vec6, PoseFailure> PoseExperiment::error(std::span<const double> inputs, 
   const double warming_k = (means.thermal ? model_.temperature_k : 0.0) +
                            model_.temperature_sigma_k * inputs[this->inputs(ErrorSource::Thermal).first];
 
-  StereoRig rig = disturber_.rig(part(ErrorSource::Calibration));
-  rig.covariance.resize(0, 0);  // it does not move the estimate
-  rig.covariance_order.clear();
+  const StereoRig rig = disturber_.rig(part(ErrorSource::Calibration));
   const Body body = disturber_.body(mover_, part(ErrorSource::Map), warming_k);
   const std::vector<TargetView> seen = views(inputs, lost, means);
   RigidMotion pose;

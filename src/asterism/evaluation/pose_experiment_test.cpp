@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "asterism/accuracy/pose_accuracy.hpp"
+#include "asterism/camera/disc_image.hpp"
 #include "asterism/evaluation/error_budget.hpp"
 #include "asterism/evaluation/verification_scene_for_tests.hpp"
 
@@ -44,6 +45,33 @@ TEST(PoseExperiment, HasTheCovarianceThatIsPredictedByAnotherWay) {
     // The estimator's floor of 0.0005 px is all that tells them apart.
     EXPECT_NEAR(by_inputs / error_at_point_mm(experiment.truth(), predicted->covariance, point), 1, 2e-3);
   }
+}
+
+TEST(EstimatePose, StatesThePredictedCovarianceWhenRigAndMapAreUncertain) {
+  const Cell cell = standing_still(scene::cell());
+  const Belief stated = stated_belief(cell);
+  const AccuracyOptions noise = accuracy_options_of(cell, CentreLevel::Centres);
+  const RigidMotion truth = pose_at(cell.movers[0].motion, 0);
+  std::vector<TargetView> views;
+  for (std::size_t target = 0; target < 6; ++target) {
+    for (const Side side : {Side::Left, Side::Right}) {
+      const RigidMotion camera_from_body = cell.rig.camera_from_tracker(side) * truth;
+      const Target& disc = cell.movers[0].body.targets[target];
+      const auto centre = project_disc_centre(
+          cell.rig.lens(side),
+          {camera_from_body * disc.position, camera_from_body.rotation * *disc.normal, 6});
+      ASSERT_TRUE(centre.has_value());
+      views.push_back(
+          {static_cast<int>(target), side, centre->px, Mat2::Identity() * (noise.sigma_px * noise.sigma_px)});
+    }
+  }
+  const auto found = estimate_pose(stated.bodies[0], views, stated.rig, truth, {});
+  const auto predicted =
+      predict_pose_accuracy(stated.bodies[0].targets, scene::all_seen(cell), truth, stated.rig, noise);
+  ASSERT_TRUE(found && predicted);
+  // The estimator's floor of 0.0005 px is all that tells them apart.
+  EXPECT_LT((found->estimate.covariance - predicted->covariance).norm(), 1e-3 * predicted->covariance.norm());
+  EXPECT_LT((found->estimate.systematic - predicted->systematic).norm(), 1e-3 * predicted->systematic.norm());
 }
 
 TEST(PoseExperiment, IsLateByLatencyTimesSpeed) {

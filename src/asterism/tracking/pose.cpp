@@ -131,12 +131,18 @@ struct RigShare {
   double chi_square = 0;
 };
 
-RigShare share_of_rig(const PoseProblem& problem, const PoseFit& fit, const Mat6& covariance) {
-  const MatX& of_rig = problem.rig().covariance;
-  if (of_rig.size() == 0) return {};
-  MatX cross = MatX::Zero(6, of_rig.cols());
-  MatX own = MatX::Zero(of_rig.cols(), of_rig.cols());
-  for (std::size_t i = 0; i < problem.size(); ++i) {
+/// Σ Jᵀ W K and Σ Kᵀ W K over the views, K = ∂px / ∂(the rig's parameters) and W as add_group has it: a
+/// target's own error is common to its views.
+struct RigEquations {
+  MatX cross, own;
+};
+
+void add_group(const PoseProblem& problem, const PoseFit& fit, const PoseProblem::Group& group,
+               RigEquations& sum) {
+  Mat3 a = Mat3::Zero();
+  Mat36 b = Mat36::Zero();
+  MatX d = MatX::Zero(3, sum.own.cols());
+  for (std::size_t i = group.first; i < group.last; ++i) {
     if (!problem.used(i)) continue;
     const auto at = problem.linearised(fit.pose, i);
     if (!at) continue;
@@ -144,12 +150,30 @@ RigShare share_of_rig(const PoseProblem& problem, const PoseFit& fit, const Mat6
     const Mat3 tracker_from_camera =
         problem.rig().camera_from_tracker(side).rotation.conjugate().toRotationMatrix();
     const MatX by_rig = pixel_by_rig(problem.rig(), side, at->in_tracker, at->by_point * tracker_from_camera);
-    require(by_rig.cols() == of_rig.cols(), "a rig's covariance covers each of its parameters");
-    cross += at->by_pose.transpose() * problem.weight(i) * by_rig;
-    own += by_rig.transpose() * problem.weight(i) * by_rig;
+    require(by_rig.cols() == sum.own.cols(), "a rig's covariance covers each of its parameters");
+    const Mat2& weight = problem.weight(i);
+    sum.cross += at->by_pose.transpose() * weight * by_rig;
+    sum.own += by_rig.transpose() * weight * by_rig;
+    a += at->by_point.transpose() * weight * at->by_point;
+    b += at->by_point.transpose() * weight * at->by_pose;
+    d += at->by_point.transpose() * weight * by_rig;
   }
-  const MatX by = covariance * cross;
-  return {by * of_rig * by.transpose(), ((own - cross.transpose() * by) * of_rig).trace()};
+  const std::optional<Mat3>& own = problem.target(group.first).covariance;
+  if (!own) return;
+  const Mat3 turn = fit.pose.rotation.toRotationMatrix();
+  const Mat3 c = turn * *own * turn.transpose();
+  const Mat3 m = c * (Mat3::Identity() + a * c).inverse();
+  sum.cross -= b.transpose() * m * d;
+  sum.own -= d.transpose() * m * d;
+}
+
+RigShare share_of_rig(const PoseProblem& problem, const PoseFit& fit, const Mat6& covariance) {
+  const MatX& of_rig = problem.rig().covariance;
+  if (of_rig.size() == 0) return {};
+  RigEquations sum{MatX::Zero(6, of_rig.cols()), MatX::Zero(of_rig.cols(), of_rig.cols())};
+  for (const PoseProblem::Group& group : problem.groups()) add_group(problem, fit, group, sum);
+  const MatX by = covariance * sum.cross;
+  return {by * of_rig * by.transpose(), ((sum.own - sum.cross.transpose() * by) * of_rig).trace()};
 }
 
 /// What the bodies' own covariances add to the pose's, which each frame shares.
