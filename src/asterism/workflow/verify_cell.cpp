@@ -217,6 +217,27 @@ void read_out(const Cell& cell, const VerifyJob& job, VerifiedCell& verified) {
   verified.read_out = read_out_errors(cell, points, job.seed);
 }
 
+/// What is asked when something goes wrong.
+void upset(const Cell& cell, const VerifyJob& job, const Progress& progress, VerifiedCell& verified) {
+  if (job.options.faults) {
+    RobustnessOptions options = job.options.robustness;
+    options.seed = job.seed;
+    verified.robustness = robustness_of(cell, options, job.options.tracker, progress);
+  }
+  if (!job.options.fusion || !cell.platform || cell.platform->body != verified.body_name) return;
+  FusionOptions options;
+  options.seed = job.seed;
+  options.tracker = job.options.tracker;
+  const std::size_t first = verified.body.has_named() ? VerifiedBody::kFirstNamed : 0;
+  try {
+    verified.fusion = fusion_of(cell, std::span(verified.body.points).subspan(first), options, progress);
+  } catch (const InputError& error) {
+    verified.remarks.push_back(fmt::format("no fusion with the read-out: {}", error.what()));
+  } catch (const MeasurementError& error) {
+    verified.remarks.push_back(fmt::format("no fusion with the read-out: {}", error.what()));
+  }
+}
+
 void judge(VerifiedCell& verified) {
   CellVerdict& verdict = verified.verdict;
   const std::string& point = verified.body.points[verified.worst.point].name;
@@ -254,10 +275,13 @@ void describe(VerifyOptions& options, OptionVisitor& visit) {
   visit.integer("moments", options.moments, {1, 1000}, "of the motion at which each run measures");
   visit.integer("budget_blocks", options.budget_blocks, {2, 1000},
                 "of 10000 draws that check the error budget");
+  visit.flag("faults", options.faults, "see what becomes of the pose under faults");
+  visit.flag("fusion", options.fusion, "see what the platform's read-out gains while both cameras are blind");
   const auto section = [&](std::string_view name, auto& part) {
     SectionVisitor visitor(name, visit);
     describe(part, visitor);
   };
+  section("robustness", options.robustness);
   section("visibility", options.visibility);
   section("occlusion", options.occlusion);
   section("tracker", options.tracker);
@@ -288,6 +312,8 @@ VerifiedCell verify_cell(const Cell& cell, const VerifyJob& job, const Progress&
   map_part(cell, verified);
   judge(verified);
   watch_time.lap("error map");
+  upset(cell, job, progress, verified);
+  watch_time.lap("faults and fusion");
   if (!job.out.empty()) write(cell, job, verified);
   return verified;
 }

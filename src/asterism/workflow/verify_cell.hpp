@@ -14,8 +14,10 @@
 #include "asterism/evaluation/accuracy_agreement.hpp"
 #include "asterism/evaluation/error_budget.hpp"
 #include "asterism/evaluation/error_map.hpp"
+#include "asterism/evaluation/fusion.hpp"
 #include "asterism/evaluation/layout_comparison.hpp"
 #include "asterism/evaluation/read_out_errors.hpp"
+#include "asterism/evaluation/robustness.hpp"
 #include "asterism/report/cell_report.hpp"
 #include "asterism/visibility/availability.hpp"
 #include "asterism/visibility/watch.hpp"
@@ -29,6 +31,9 @@ struct VerifyOptions {
   int runs = 5000;        // disturbance runs of each layout,
   int moments = 8;        // each at rest and at so many moments of the motion
   int budget_blocks = 4;  // of 10⁴ draws that check the error budget
+  bool faults = true;     // what becomes of the pose under faults: lost, knocked, hidden targets
+  bool fusion = true;     // what the platform's own read-out gains while both cameras are blind
+  RobustnessOptions robustness;
   VisibilityOptions visibility;
   OcclusionOptions occlusion;
   TrackerOptions tracker;
@@ -74,9 +79,9 @@ struct VerifiedCell {
   std::vector<LayoutComparison> comparisons;
   CellVerdict verdict;
 
-  // Of other parts of the verification (robustness, fusion): shown after its own.
-  std::vector<ReportTable> tables;
-  std::vector<ReportChart> charts;
+  std::optional<RobustnessTable> robustness;
+  std::optional<FusionStudy> fusion;
+  std::vector<std::string> remarks;                     // what was left out and why
   std::vector<std::pair<std::string, double>> seconds;  // where the time went
 };
 
@@ -88,8 +93,11 @@ struct VerifiedCell {
 /// Targets of the body that both cameras see in a frame.
 [[nodiscard]] int visible_at(const VerifiedCell& verified, std::size_t frame);
 
-/// The tables of a verification, its own and those of other parts.
+/// The tables of a verification, one after the other, and of parts of it.
 [[nodiscard]] std::vector<ReportTable> tables_of(const VerifiedCell& verified);
+[[nodiscard]] ReportTable table_of(const RobustnessTable& robustness);
+[[nodiscard]] ReportTable table_of(const FusionStudy& fusion);
+[[nodiscard]] ReportChart chart_of(const FusionStudy& fusion);
 [[nodiscard]] CellReport report_of(const Cell& cell, const VerifiedCell& verified,
                                    const VerifyOptions& options);
 

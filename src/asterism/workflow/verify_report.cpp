@@ -173,6 +173,7 @@ CellReport report_of(const Cell& cell, const VerifiedCell& verified, const Verif
                   verified.watched.times_s.size(), verified.body_name, verified.repeats, options.runs);
   report.summary = rows_of(verified);
   report.remarks = remarks_on(cell);
+  report.remarks.insert(report.remarks.end(), verified.remarks.begin(), verified.remarks.end());
   report.rig = cell.rig;
   report.volume = cell.volume;
   report.times_s = verified.watched.times_s;
@@ -198,7 +199,7 @@ CellReport report_of(const Cell& cell, const VerifiedCell& verified, const Verif
   report.nominal_mm = verified.nominal_mm;
   report.tables = tables_of(verified);
   report.charts = charts_of(verified);
-  report.charts.insert(report.charts.end(), verified.charts.begin(), verified.charts.end());
+  if (verified.fusion) report.charts.push_back(chart_of(*verified.fusion));
   VerifyOptions shown = options;
   report.options_json = json_of_options(describing(shown)).dump();
   return report;

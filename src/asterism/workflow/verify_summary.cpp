@@ -103,6 +103,50 @@ Json json_of(const ErrorSummary& errors) {
   return {{"mean", errors.mean}, {"rms", errors.rms}, {"p95", errors.p95}, {"max", errors.max}};
 }
 
+Json json_of(const RobustnessTable& robustness) {
+  Json json = Json::array();
+  for (const FaultOutcome& fault : robustness.rows) {
+    const Outcome& outcome = fault.measured;
+    json.push_back({{"fault", fault.fault},
+                    {"runs", fault.runs},
+                    {"frames", outcome.frames},
+                    {"kept", outcome.kept},
+                    {"rough", outcome.rough},
+                    {"flagged", outcome.flagged},
+                    {"lost", outcome.lost},
+                    {"too_sure", outcome.too_sure},
+                    {"wrong", outcome.wrong},
+                    {"rms_mm", outcome.seen > 0 ? Json(outcome.rms_mm()) : Json(nullptr)},
+                    {"knocks", fault.knocks},
+                    {"knocked_found", fault.found},
+                    {"knocked_undecided", fault.undecided},
+                    {"accused_wrong", fault.accused_wrong},
+                    {"worst", fault.worst}});
+  }
+  return json;
+}
+
+Json json_of(const FusionRoad& road) {
+  return {{"frames", road.frames}, {"lost", road.lost},           {"rms_mm", road.rms_mm},
+          {"p95_mm", road.p95_mm}, {"stated_mm", road.stated_mm}, {"nees_over_six", road.nees / 6}};
+}
+
+Json json_of(const FusionStudy& fusion) {
+  Json json = {{"point", fusion.point}, {"runs", fusion.runs}, {"occlusions", Json::array()}};
+  for (const FusionSpell& spell : fusion.spells) {
+    json["occlusions"].push_back({{"occlusion_s", spell.occlusion_s},
+                                  {"alone", json_of(spell.alone)},
+                                  {"with_read_out", json_of(spell.with_read_out)}});
+  }
+  const FusionOffset& offset = fusion.offset;
+  json["time_offset"] = {{"told", offset.told},
+                         {"true_s", offset.true_s},
+                         {"mean_s", offset.mean_s},
+                         {"sigma_s", offset.sigma_s},
+                         {"rms_in_sigma", offset.rms_in_sigma}};
+  return json;
+}
+
 /// Empty where there is no number.
 std::string cell_of_number(const std::optional<double>& value) {
   return value ? fmt::format("{:.6g}", *value) : "";
@@ -144,6 +188,8 @@ Json summary_of(const VerifiedCell& verified, const VerifyOptions& options) {
   }
   for (const LayoutComparison& comparison : verified.comparisons)
     json["disturbance"].push_back(json_of(comparison));
+  if (verified.robustness) json["faults"] = json_of(*verified.robustness);
+  if (verified.fusion) json["fusion"] = json_of(*verified.fusion);
   for (const auto& [stage, seconds] : verified.seconds) json["seconds"][stage] = seconds;
   VerifyOptions shown = options;
   json["options"] = json_of_options(describing(shown));

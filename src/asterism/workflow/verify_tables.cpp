@@ -212,7 +212,8 @@ std::vector<ReportTable> tables_of(const VerifiedCell& verified) {
     tables.push_back(sample_table(comparison));
     if (!comparison.pairs.empty()) tables.push_back(pair_table(comparison));
   }
-  tables.insert(tables.end(), verified.tables.begin(), verified.tables.end());
+  if (verified.robustness) tables.push_back(table_of(*verified.robustness));
+  if (verified.fusion) tables.push_back(table_of(*verified.fusion));
   return tables;
 }
 
