@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "asterism/core/output_file.hpp"
 #include "asterism/core/parallel.hpp"
-#include "asterism/evaluation/layout_trial.hpp"
-#include "asterism/layout/layout_model.hpp"
+#include "asterism/workflow/verify_layouts.hpp"
 
 namespace asterism {
 namespace {
@@ -147,52 +147,6 @@ void simulate(const Cell& cell, const VerifyJob& job, const Progress& progress, 
   }
 }
 
-/// Evenly over the motion, the first and the last frame among them.
-std::vector<double> moments_of(const std::vector<double>& times_s, int wanted) {
-  std::vector<double> moments;
-  const std::size_t count = std::min(times_s.size(), static_cast<std::size_t>(wanted));
-  for (std::size_t i = 0; i < count; ++i)
-    moments.push_back(times_s[count == 1 ? 0 : i * (times_s.size() - 1) / (count - 1)]);
-  return moments;
-}
-
-/// The present layout and those to be compared with it, completed by what the surface says of normals.
-std::vector<NamedLayout> layouts_of(const Cell& cell, const VerifyJob& job, const VerifiedCell& verified) {
-  std::vector<NamedLayout> layouts = {{"as it stands", cell.movers[verified.body.mover].body.targets}};
-  if (job.layouts.empty()) return layouts;
-  if (!cell.layout || cell.layout->body != verified.body_name) {
-    throw InputError(cell.name,
-                     fmt::format("layouts of `{}` can be compared only where [layout] is about it, "
-                                 "since it tells how targets face",
-                                 verified.body_name));
-  }
-  const LayoutModel model(cell, {});
-  for (const NamedLayout& layout : job.layouts)
-    layouts.push_back({layout.name, model.completed(layout.targets)});
-  return layouts;
-}
-
-void disturb_layouts(const Cell& cell, const VerifyJob& job, const Occlusion& occlusion,
-                     const AccuracyOptions& noise, const Progress& progress, VerifiedCell& verified) {
-  const std::vector<NamedLayout> layouts = layouts_of(cell, job, verified);
-  const std::vector<double> moments = moments_of(verified.watched.times_s, job.options.moments);
-  const TrialView view{moments, job.options.visibility, noise};
-  DisturbanceOptions options;
-  options.runs = static_cast<std::size_t>(job.options.runs);
-  options.seed = job.seed;
-  options.target_loss = cell.noise.target_loss;
-  for (const NamedLayout& layout : layouts) {
-    verified.runs.push_back(
-        disturb(trial_of(cell, verified.body, layout.name, layout.targets, occlusion, view), options));
-    progress("disturbance runs", verified.runs.size(), layouts.size());
-  }
-  for (const auto& [quantity, at_rest] : {std::pair(RunQuantity::RotationDeg, true),
-                                          {RunQuantity::CentroidMm, true},
-                                          {RunQuantity::WorstPointMm, false}}) {
-    verified.comparisons.push_back(compare_layouts(verified.runs, quantity, at_rest));
-  }
-}
-
 void budget(const Cell& cell, const VerifyJob& job, const AccuracyOptions& noise, VerifiedCell& verified) {
   const WorstMoment& worst = verified.worst;
   const PoseExperiment experiment(cell, verified.body.mover, verified.watched.times_s[worst.frame],
@@ -305,7 +259,10 @@ VerifiedCell verify_cell(const Cell& cell, const VerifyJob& job, const Progress&
   simulate(cell, job, progress, verified);
   read_out(cell, job, verified);
   watch_time.lap("simulation and tracking");
-  disturb_layouts(cell, job, occlusion, noise, progress, verified);
+  DisturbedLayouts disturbed =
+      disturb_layouts(cell, verified.body, verified.watched.times_s, job, occlusion, progress);
+  verified.runs = std::move(disturbed.runs);
+  verified.comparisons = std::move(disturbed.comparisons);
   watch_time.lap("disturbance runs");
   budget(cell, job, noise, verified);
   watch_time.lap("error budget");
