@@ -30,7 +30,7 @@ struct VerifyOptions {
   int repeats = 8;        // of the motion at the level of centres; images are made once
   int runs = 5000;        // disturbance runs of each layout,
   int moments = 8;        // each at rest and at so many moments of the motion
-  int budget_blocks = 4;  // of 10⁴ draws that check the error budget
+  int budget_blocks = 2;  // of 10⁴ draws that check the error budget
   bool faults = true;     // what becomes of the pose under faults: lost, knocked, hidden targets
   bool fusion = true;     // what the platform's own read-out gains while both cameras are blind
   RobustnessOptions robustness;

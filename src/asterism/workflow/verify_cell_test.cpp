@@ -19,7 +19,7 @@ Cell small_cell() {
   Cell cell = test_cell();
   cell.timing = {12, 10};
   cell.platform = Platform{};
-  cell.noise.sigma_px = 0.05;
+  cell.noise.sigma_px = 0.015;
   cell.verification.points = {{"tip", Vec3(400, 0, 900)}};
   return cell;
 }
