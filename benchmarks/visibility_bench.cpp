@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What hides targets: our ray rate beside Embree asked directly (same surface, same rays, same order, one
 // core), how often single precision and double precision differ, and how long the tracker's view of a casing
-// takes: 200 poses of 8 targets with their accuracy, and a map over roll and pitch.
+// takes: 200 poses of 8 targets with their accuracy, and a map over roll and pitch. Then what solids add to
+// the time of a search for layouts, and what the search's table of shadows tells otherwise than the rays.
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <pmmintrin.h>
@@ -9,12 +10,14 @@
 
 #include <atomic>
 #include <cmath>
+#include <ctime>
 #include <numbers>
 
 #include "asterism/accuracy/motion_accuracy.hpp"
 #include "asterism/core/parallel.hpp"
 #include "asterism/geometry/rays_for_tests.hpp"
 #include "asterism/io/cell_file.hpp"
+#include "asterism/layout/designer.hpp"
 #include "asterism/visibility/watch.hpp"
 #include "bench.hpp"
 
@@ -322,11 +325,90 @@ void time_to_see(const Cell& cell) {
   set_thread_count(0);
 }
 
+double wall_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+double cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// From the cell to the designs that are told, two threads; what the part, the pipe, the scanner and the
+/// cable add to it.
+void designer(const Cell& cell) {
+  Cell open = cell;
+  open.workpiece.reset();
+  open.fixtures.clear();
+  open.obstacles.clear();
+  DesignerOptions options;
+  options.optimizer.generations = 1000;
+  options.optimizer.evaluations = 25000;
+  set_thread_count(2);
+  bench::Table table(
+      "layout search, 25,000 evaluations, 200 poses, 2 threads",
+      {"solids", "places", "step mm", "table s", "search s", "told s", "CPU s", "CPU ratio", "front"});
+  double cpu_without = 0;
+  for (const bool with : {false, true}) {
+    const double cpu = cpu_seconds(), begin = wall_seconds();
+    const LayoutProblem problem(with ? cell : open, options);
+    const double ready = wall_seconds();
+    const OptimizationResult found = optimize(problem, options.optimizer);
+    const double searched = wall_seconds();
+    const DesignResult result = design_result(problem, found);
+    const double told = wall_seconds(), cpu_all = cpu_seconds() - cpu;
+    if (!with) cpu_without = cpu_all;
+    table.row({with ? "with" : "without", fmt::format("{}", problem.shadows().places()),
+               fmt::format("{:.1f}", problem.shadows().step_mm()), fmt::format("{:.2f}", ready - begin),
+               fmt::format("{:.2f}", searched - ready), fmt::format("{:.2f}", told - searched),
+               fmt::format("{:.2f}", cpu_all), fmt::format("{:.2f}", cpu_all / cpu_without),
+               fmt::format("{} of {}", result.front.size(), found.front.size())});
+  }
+  table.print_json();
+  set_thread_count(0);
+}
+
+/// What the search's table of shadows says of layouts at random beside what the rays say.
+void table_of_shadows(const Cell& cell) {
+  const LayoutProblem problem(cell, {});
+  const LayoutModel& model = problem.model();
+  std::size_t seen = 0, hidden = 0, told_besides = 0, missed = 0;
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    RandomStream random(5, i);
+    const std::vector<Target> targets = problem.targets_of(problem.sample(random));
+    const auto before = visible_targets(targets, model.motion, model.volume, {});
+    const auto exact = model.visibility_of(targets);
+    const auto table = problem.shadows().unhidden_of(before, targets);
+    for (std::size_t pose = 0; pose < before.poses(); ++pose) {
+      for (std::size_t side = 0; side < 2; ++side) {
+        const TargetMask all = before.seen[pose][side], free = exact.seen[pose][side],
+                         told = table.seen[pose][side];
+        seen += static_cast<std::size_t>(std::popcount(all));
+        hidden += static_cast<std::size_t>(std::popcount(all & ~free));
+        told_besides += static_cast<std::size_t>(std::popcount(free & ~told));
+        missed += static_cast<std::size_t>(std::popcount(told & ~free));
+      }
+    }
+  }
+  const auto share = [&](std::size_t of) {
+    return fmt::format("{:.3f} %", 100.0 * static_cast<double>(of) / static_cast<double>(seen));
+  };
+  bench::Table table("the search's table of shadows, 300 layouts at random: shares of the sights asked",
+                     {"sights", "hidden", "hidden by table", "table alone", "missed by table"});
+  table.row({fmt::format("{}", seen), share(hidden), share(hidden + told_besides - missed),
+             share(told_besides), share(missed)});
+  table.print_json();
+}
+
 }  // namespace
 
 int main() {
   const Cell cell = casing_cell();
   ray_rate(cell);
   time_to_see(cell);
+  designer(cell);
+  table_of_shadows(cell);
   agreement(cell);
 }

@@ -37,4 +37,13 @@ inline Cell paper_cell(double radius_mm = 350, int poses = 40, double range_mm =
   return cell;
 }
 
+/// The same with a mast on the platform and a beam that stands before the cameras, seen from 2.6 m.
+inline Cell shaded_cell(int poses = 12) {
+  Cell cell = paper_cell(350, poses, 2600, 0);
+  cell.obstacles = {
+      {"mast", Frustum{80, 80, 500}, "platform", {Quaternion::Identity(), {0, 0, 590}}, {}},
+      {"beam", Capsule{{-700, 0, 0}, {700, 0, 0}, 40}, "", {Quaternion::Identity(), {0, -100, 1300}}, {}}};
+  return cell;
+}
+
 }  // namespace asterism

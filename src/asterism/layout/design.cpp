@@ -22,6 +22,8 @@ void describe(DesignerOptions& options, OptionVisitor& visit) {
   describe(options.optimizer, optimizer);
   SectionVisitor visibility("visibility", visit);
   describe(options.visibility, visibility);
+  SectionVisitor occlusion("occlusion", visit);
+  describe(options.occlusion, occlusion);
   SectionVisitor accuracy("accuracy", visit);
   describe(options.accuracy, accuracy);
 }

@@ -11,6 +11,7 @@
 #include "asterism/layout/metrics.hpp"
 #include "asterism/layout/objectives.hpp"
 #include "asterism/optimization/optimizer.hpp"
+#include "asterism/visibility/occlusion.hpp"
 #include "asterism/visibility/visibility.hpp"
 
 namespace asterism {
@@ -25,6 +26,7 @@ struct DesignerOptions {
   int most_designs = 60;               // of the front shown: the knee, the extremes, then the most different
   OptimizerOptions optimizer;
   VisibilityOptions visibility;
+  OcclusionOptions occlusion;
   AccuracyOptions accuracy;  // its `losses` is set by what is asked
 };
 void describe(DesignerOptions& options, OptionVisitor& visit);

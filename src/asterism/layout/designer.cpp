@@ -12,6 +12,8 @@
 #include "asterism/core/result.hpp"
 #include "asterism/layout/knee.hpp"
 #include "asterism/layout/verdict.hpp"
+#include "asterism/optimization/island.hpp"
+#include "asterism/optimization/non_dominated_sort.hpp"
 
 namespace asterism {
 namespace {
@@ -105,13 +107,13 @@ std::vector<GreedyDesign> greedy_of(const LayoutProblem& problem) {
 
 /// The rows of the whole front that are told in full: the knee, the extremes of the front and those of each
 /// number of targets, then the most different.
-std::vector<std::size_t> rows_to_tell(const OptimizationResult& found, std::span<const double> objectives,
+std::vector<std::size_t> rows_to_tell(const std::vector<Candidate>& found, std::span<const double> objectives,
                                       std::size_t m, std::size_t most) {
   const std::vector<std::size_t> rows = thinned(objectives, m, most);
   std::vector<std::size_t> order(rows);
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     const auto key = [&](std::size_t i) {
-      return std::pair(found.front[i].genes.size(),
+      return std::pair(found[i].genes.size(),
                        std::vector<double>(objectives.begin() + i * m, objectives.begin() + (i + 1) * m));
     };
     return key(a) < key(b);
@@ -119,11 +121,46 @@ std::vector<std::size_t> rows_to_tell(const OptimizationResult& found, std::span
   return order;
 }
 
-void tell_front(const LayoutProblem& problem, const OptimizationResult& found, DesignResult& result) {
+/// What was found with every line of sight asked: the front is what then holds the constraints and is not
+/// dominated; without one, the closest is told with what it then misses. Where nothing can be hidden, this is
+/// what was found.
+OptimizationResult asked_exactly(const LayoutProblem& problem, OptimizationResult found) {
+  if (problem.shadows().empty()) return found;
+  const std::vector<ConstraintInfo> constraints = problem.constraints();
+  std::vector<Candidate> asked = std::move(found.front);
+  found.front.clear();
+  if (asked.empty() && !found.closest.genes.empty()) asked = {found.closest};
+  if (asked.empty()) return found;
+  parallel_for(asked.size(), [&](std::size_t i) {
+    asked[i].violations.resize(constraints.size());
+    problem.evaluate_exactly(asked[i].genes, asked[i].objectives, asked[i].violations);
+  });
+  const auto missing = [&](const Candidate& one) { return total_violation(one.violations, constraints); };
+  found.closest = *std::min_element(asked.begin(), asked.end(), [&](const Candidate& a, const Candidate& b) {
+    return missing(a) < missing(b);
+  });
+  found.shortfalls.clear();
+  for (std::size_t c = 0; c < constraints.size(); ++c) {
+    const double violation = found.closest.violations[c];
+    if (violation > 0) found.shortfalls.push_back({constraints[c], violation});
+  }
+  std::erase_if(asked, [&](const Candidate& one) { return missing(one) > 0; });
+  std::vector<double> objectives;
+  for (const Candidate& one : asked) {
+    objectives.insert(objectives.end(), one.objectives.begin(), one.objectives.end());
+  }
+  const std::vector<int> ranks = non_dominated_ranks(objectives, problem.model().objectives.size());
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (ranks[i] == 0) found.front.push_back(std::move(asked[i]));
+  }
+  return found;
+}
+
+void tell_front(const LayoutProblem& problem, const std::vector<Candidate>& found, DesignResult& result) {
   const LayoutModel& model = problem.model();
   const std::size_t m = model.objectives.size();
   std::vector<double> objectives;
-  for (const Candidate& candidate : found.front) {
+  for (const Candidate& candidate : found) {
     objectives.insert(objectives.end(), candidate.objectives.begin(), candidate.objectives.end());
   }
   const std::size_t knee = knee_of(objectives, m);
@@ -131,8 +168,8 @@ void tell_front(const LayoutProblem& problem, const OptimizationResult& found, D
   std::vector<std::vector<Vec3>> layouts;
   std::vector<double> told;
   for (const std::size_t row : rows) {
-    layouts.push_back(positions_of(found.front[row].genes));
-    told.insert(told.end(), found.front[row].objectives.begin(), found.front[row].objectives.end());
+    layouts.push_back(positions_of(found[row].genes));
+    told.insert(told.end(), found[row].objectives.begin(), found[row].objectives.end());
     if (row == knee) result.knee = static_cast<int>(layouts.size()) - 1;
   }
   result.front = designs_of(model, layouts, "found");
@@ -140,7 +177,7 @@ void tell_front(const LayoutProblem& problem, const OptimizationResult& found, D
   for (LayoutDesign& design : result.front) {
     design.name += fmt::format(", {}", ++of_count[design.targets.size()]);
   }
-  result.why = why_the_knee(result.front, static_cast<std::size_t>(result.knee), found.front.size());
+  result.why = why_the_knee(result.front, static_cast<std::size_t>(result.knee), found.size());
   for (const LayoutDesign& design : result.front)
     result.given_up.push_back(given_up_by(design, result.front));
 }
@@ -156,8 +193,9 @@ LayoutDesign evaluate_layout(const Cell& cell, std::span<const Target> targets,
   return design_of(LayoutModel(cell, options), targets, "given");
 }
 
-DesignResult design_result(const LayoutProblem& problem, const OptimizationResult& found) {
+DesignResult design_result(const LayoutProblem& problem, const OptimizationResult& by_table) {
   const LayoutModel& model = problem.model();
+  const OptimizationResult found = asked_exactly(problem, by_table);
   DesignResult result;
   result.warnings = problem.warnings();
   result.history = found.history;
@@ -178,7 +216,7 @@ DesignResult design_result(const LayoutProblem& problem, const OptimizationResul
           design_of(model, model.targets_at(positions_of(found.closest.genes)), "closest to feasible");
     }
   } else {
-    tell_front(problem, found, result);
+    tell_front(problem, found.front, result);
   }
   return result;
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "asterism/cell/occluders.hpp"
 #include "asterism/core/files_for_tests.hpp"
 #include "asterism/core/parallel.hpp"
 #include "asterism/layout/cell_for_tests.hpp"
@@ -102,6 +103,34 @@ TEST(DesignLayouts, GivesTheSameBitsForAnyThreadCount) {
   EXPECT_EQ(one.front_checksum, three.front_checksum);
   ASSERT_EQ(one.front.size(), three.front.size());
   EXPECT_EQ(one.why, three.why);
+}
+
+TEST(DesignLayouts, TellsWhatHoldsWithEveryLineOfSightAsked) {
+  const Cell cell = shaded_cell(40);
+  set_thread_count(1);
+  const DesignResult one = design_layouts(cell, quick());
+  set_thread_count(3);
+  const DesignResult three = design_layouts(cell, quick());
+  set_thread_count(0);
+  EXPECT_EQ(one.front_checksum, three.front_checksum);
+  EXPECT_EQ(one.why, three.why);
+  ASSERT_FALSE(one.front.empty());
+  const Occlusion occlusion(cell);
+  for (const LayoutDesign& design : one.front) {
+    EXPECT_TRUE(design.feasible()) << design.name;
+    const LayoutDesign again = evaluate_layout(cell, design.targets, quick());
+    EXPECT_EQ(again.visibility.seen, design.visibility.seen);
+    EXPECT_EQ(again.value_of(LayoutQuantity::WorstErrorOneLost),
+              design.value_of(LayoutQuantity::WorstErrorOneLost));
+    // Nothing that is told as seen is behind the mast or the beam.
+    for (std::size_t pose = 0; pose < 40; ++pose) {
+      const auto poses = poses_at(cell, one.pose_times_s[pose]);
+      for (std::size_t i = 0; i < design.targets.size(); ++i) {
+        if ((design.visibility.seen[pose][0] >> i & 1U) == 0) continue;
+        EXPECT_GE(occlusion.free_share(design.targets[i], 0, poses, Side::Left), 0.98);
+      }
+    }
+  }
 }
 
 TEST(DesignLayouts, TellsWhatCannotBeHad) {

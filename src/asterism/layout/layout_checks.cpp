@@ -44,7 +44,10 @@ std::string main_reason(const LayoutModel& model, std::span<const Place> places,
     for (const Side side : {Side::Left, Side::Right}) {
       const auto sights = look_at(target, model.motion.tracker_from_body[pose], model.motion.rig, side,
                                   model.volume, model.options.visibility);
+      const bool hidden = !sights[0].fails &&
+                          model.occlusion.hidden_by(target[0], model.carrier, model.cell_poses[pose], side);
       if (sights[0].fails) ++counts[static_cast<std::size_t>(*sights[0].fails)];
+      if (hidden) ++counts[static_cast<std::size_t>(SightFailure::Hidden)];
     }
   }
   const auto most = std::max_element(counts.begin(), counts.end()) - counts.begin();

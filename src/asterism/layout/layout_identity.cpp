@@ -127,10 +127,16 @@ std::string LayoutProblem::identity() const {
   describe(task, mark_options);
   describe(visibility, mark_options);
   describe(accuracy, mark_options);
+  OcclusionOptions occlusion = model.options.occlusion;
+  describe(occlusion, mark_options);
+  mark.add(static_cast<double>(model.occluders_mark >> 32));
+  mark.add(static_cast<double>(model.occluders_mark & 0xFFFFFFFF));
   mark.add(identifiability_cap_mm_);
   mark_surface(model.rules.surface, mark);
   mark.add(model.rules.spacing_mm);
-  for (const RigidMotion& pose : model.motion.tracker_from_body) mark.add(pose);
+  for (const auto& poses : model.cell_poses) {
+    for (const RigidMotion& pose : poses) mark.add(pose);
+  }
   mark.add(model.motion.rig.right_from_left);
   mark_lens(model.motion.rig.left, mark);
   mark_lens(model.motion.rig.right, mark);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "asterism/cell/occluders.hpp"
+#include "asterism/core/checksum.hpp"
 #include "asterism/core/result.hpp"
 #include "asterism/layout/metrics.hpp"
 #include "asterism/visibility/availability.hpp"
@@ -74,7 +76,7 @@ std::vector<LayoutQuantity> all_objectives(const LayoutTask& task, const std::st
 }  // namespace
 
 LayoutModel::LayoutModel(const Cell& cell, const DesignerOptions& asked)
-    : task(task_of(cell)), options(asked), volume(cell.volume) {
+    : task(task_of(cell)), options(asked), occlusion(cell, asked.occlusion), volume(cell.volume) {
   check_layout_task(task, fmt::format("cell `{}`", cell.name));
   DesignerOptions copy = asked;
   LimitsCheck limits;
@@ -89,11 +91,29 @@ LayoutModel::LayoutModel(const Cell& cell, const DesignerOptions& asked)
   motion = seen_motion(poses_between(mover.motion, 0, last_s, task.poses), cell.rig);
   for (int i = 0; i < task.poses; ++i)
     times_s.push_back(task.poses > 1 ? last_s * i / (task.poses - 1) : 0.0);
+  place_among_solids(cell);
   for (const WorkPoint& point : task.points) points.push_back(point.in_body_mm);
   present = mover.body.targets;
   for (const Mover& other : cell.movers) {
     if (other.body.name != task.body && other.body.targets.size() >= 4) others.push_back(other.body);
   }
+}
+
+void LayoutModel::place_among_solids(const Cell& cell) {
+  carrier = static_cast<std::size_t>(mover_index(cell, task.body));
+  for (std::size_t pose = 0; pose < times_s.size(); ++pose) {
+    cell_poses.push_back(poses_at(cell, times_s[pose]));
+    cell_poses.back()[carrier] = motion.tracker_from_body[pose];
+  }
+  Checksum mark;
+  for (const Occluder& occluder : occluders_of(cell)) {
+    mark.add(occluder.carrier);
+    for (const Vec3& vertex : occluder.surface.vertices) mark.add(std::span(vertex.data(), 3));
+    for (const auto& triangle : occluder.surface.triangles) {
+      for (const std::uint32_t corner : triangle) mark.add(corner);
+    }
+  }
+  occluders_mark = mark.value();
 }
 
 double LayoutModel::bound_on(LayoutQuantity quantity) const {
@@ -122,7 +142,8 @@ std::vector<Target> LayoutModel::completed(std::span<const Target> targets) cons
 }
 
 MotionVisibility LayoutModel::visibility_of(std::span<const Target> targets) const {
-  return visible_targets(targets, motion, volume, options.visibility);
+  return occlusion.unhidden_of(visible_targets(targets, motion, volume, options.visibility), targets, carrier,
+                               cell_poses);
 }
 
 LayoutValues LayoutModel::values(std::span<const Target> targets, const QuantitySet& wanted,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -39,7 +40,7 @@ class LayoutModel {
   /// Throws InputError when the cell has no layout task or its body is not there, and for bad options.
   LayoutModel(const Cell& cell, const DesignerOptions& options);
 
-  /// Which targets each camera sees in each pose of the motion.
+  /// Which targets each camera sees in each pose of the motion, every line of sight asked.
   [[nodiscard]] MotionVisibility visibility_of(std::span<const Target> targets) const;
 
   /// Is a pure function.
@@ -64,12 +65,17 @@ class LayoutModel {
   std::vector<LayoutConstraint> constraints;  // the task's and the options'
   std::vector<double> times_s;
   SeenMotion motion;
+  std::size_t carrier = 0;                           // that carries the targets
+  std::vector<std::vector<RigidMotion>> cell_poses;  // of all movers, as Occlusion has them
+  Occlusion occlusion;
+  std::uint64_t occluders_mark = 0;  // tells the cell's solids from any others
   std::optional<WorkingVolume> volume;
   std::vector<Vec3> points;
   std::vector<Target> present;
   std::vector<Body> others;  // with four targets or more
 
  private:
+  void place_among_solids(const Cell& cell);
   void measure_identifiability(std::span<const Vec3> positions, double cap_mm, LayoutValues& values) const;
   void predict_errors(std::span<const Target> targets, const QuantitySet& wanted, LayoutValues& values) const;
 };

@@ -20,6 +20,9 @@ constexpr double kNoErrorMm = 1e6;    // stands for an error that has no value; 
 constexpr int kPoissonSeedsEach = 2;  // for each number of targets
 constexpr double kCut = 0.3;          // share of children by a cut through space
 
+// Of the table of shadows: a second or two to make, which a search of 25,000 layouts hardly feels.
+constexpr std::size_t kPlacePoses = 3200000, kFewestPlaces = 500, kMostPlaces = 16000;
+
 bool fits(std::span<const Vec3> layout, const LayoutRules& rules) {
   const auto count = static_cast<int>(layout.size());
   if (count < rules.fewest || count > rules.most) return false;
@@ -85,6 +88,9 @@ LayoutProblem::LayoutProblem(const Cell& cell, const DesignerOptions& options) {
   VariationOptions variation;
   variation.mutations = 1;
   variation_ = Variation(variation);
+  shadows_ = std::make_unique<Shadows>(
+      model->rules.surface, model->task.diameter_mm, model->occlusion, model->carrier, model->cell_poses,
+      std::clamp(kPlacePoses / static_cast<std::size_t>(model->task.poses), kFewestPlaces, kMostPlaces));
   model_ = std::move(model);
 }
 
@@ -189,7 +195,20 @@ void LayoutProblem::vary(std::span<const double> mother, std::span<const double>
 void LayoutProblem::evaluate(std::span<const double> genes, std::span<double> objectives,
                              std::span<double> violations) const {
   const std::vector<Target> targets = model_->targets_at(positions_of(genes));
-  const LayoutValues values = model_->values(targets, wanted_, identifiability_cap_mm_);
+  const LayoutModel& m = *model_;
+  MotionVisibility seen =
+      shadows_->unhidden_of(visible_targets(targets, m.motion, m.volume, m.options.visibility), targets);
+  tell(m.values(targets, std::move(seen), wanted_, identifiability_cap_mm_), objectives, violations);
+}
+
+void LayoutProblem::evaluate_exactly(std::span<const double> genes, std::span<double> objectives,
+                                     std::span<double> violations) const {
+  const std::vector<Target> targets = model_->targets_at(positions_of(genes));
+  tell(model_->values(targets, wanted_, identifiability_cap_mm_), objectives, violations);
+}
+
+void LayoutProblem::tell(const LayoutValues& values, std::span<double> objectives,
+                         std::span<double> violations) const {
   double without_value = 0;
   for (std::size_t i = 0; i < model_->objectives.size(); ++i) {
     const Q quantity = model_->objectives[i];

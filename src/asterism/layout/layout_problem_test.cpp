@@ -126,6 +126,50 @@ TEST(LayoutProblem, IsToldApartByWhatDecides) {
   EXPECT_NE(LayoutProblem(clamp, {}).identity(), identity);
 }
 
+TEST(LayoutProblem, IsToldApartByWhatHidesTargets) {
+  const std::string identity = LayoutProblem(shaded_cell(), {}).identity();
+  EXPECT_EQ(LayoutProblem(shaded_cell(), {}).identity(), identity);
+  EXPECT_NE(LayoutProblem(paper_cell(350, 12, 2600, 0), {}).identity(), identity);
+  Cell moved = shaded_cell();
+  moved.obstacles[1].carrier_from_shape.translation.z() += 1;
+  EXPECT_NE(LayoutProblem(moved, {}).identity(), identity);
+  Cell carried = shaded_cell();
+  carried.obstacles[1].body = "platform";
+  EXPECT_NE(LayoutProblem(carried, {}).identity(), identity);
+  DesignerOptions rays;
+  rays.occlusion.rays = 32;
+  EXPECT_NE(LayoutProblem(shaded_cell(), rays).identity(), identity);
+}
+
+TEST(LayoutProblem, IsNoBetterByItsTableOfShadowsThanWithEveryRayAsked) {
+  const LayoutProblem problem(shaded_cell(), {});
+  ASSERT_FALSE(problem.shadows().empty());
+  int differ = 0;
+  for (std::uint64_t i = 0; i < 60; ++i) {
+    RandomStream random(53, i);
+    const Genes genes = problem.sample(random);
+    const Evaluated by_table = evaluated(problem, genes);
+    Evaluated exact = by_table;
+    problem.evaluate_exactly(genes, exact.objectives, exact.violations);
+    EXPECT_LE(exact.violations[0], by_table.violations[0]);               // fewest visible
+    EXPECT_LE(exact.objectives[1], by_table.objectives[1] * (1 + 1e-9));  // worst error
+    differ += exact.objectives[1] < by_table.objectives[1] ? 1 : 0;
+  }
+  EXPECT_GT(differ, 10);
+  const LayoutProblem free(paper_cell(), {});
+  EXPECT_TRUE(free.shadows().empty());
+  const Genes genes = genes_of(paper_table1()[2].targets);
+  Evaluated exact = evaluated(free, genes);
+  free.evaluate_exactly(genes, exact.objectives, exact.violations);
+  EXPECT_EQ(exact.objectives, evaluated(free, genes).objectives);
+}
+
+TEST(LayoutProblem, SaysThatAllIsHidden) {
+  Cell cell = shaded_cell();
+  cell.obstacles[1].shape = Box{{3000, 3000, 10}};
+  EXPECT_TELLS(refusal(cell), "none of 400 places of the surface is seen by both cameras: hidden");
+}
+
 TEST(LayoutProblem, TellsWhichTaskIsNone) {
   Cell cell = paper_cell();
   cell.layout.reset();

@@ -95,12 +95,14 @@ struct Occlusion::View {
     [[nodiscard]] Vec3 in_group(const Vec3& in_carrier) const {
       return moves_with_targets ? in_carrier : Vec3(group_from_carrier * in_carrier);
     }
-    [[nodiscard]] bool misses(const Face& face) const {
+    /// The first solid that its slabs do not show to be out of the way; none when all are.
+    [[nodiscard]] std::optional<std::size_t> in_reach(const Face& face) const {
       const Vec3 middle = in_group(face.middle);
       const Vec3 normal = moves_with_targets ? face.normal : Vec3(group_from_carrier.rotation * face.normal);
-      return std::all_of(group->slabs.begin(), group->slabs.end(), [&](const Slabs& slabs) {
-        return out_of_reach(slabs, middle, normal, face.radius_mm, eye);
-      });
+      for (std::size_t i = 0; i < group->slabs.size(); ++i) {
+        if (!out_of_reach(group->slabs[i], middle, normal, face.radius_mm, eye)) return group->members[i];
+      }
+      return std::nullopt;
     }
   };
   Vec3 eye;  // in the carrier's frame
@@ -129,7 +131,7 @@ std::size_t Occlusion::blocked(const Face& face, const View& view, std::size_t m
   std::size_t marked = 0;
   for (const View::Before& before : view.groups) {
     const RayScene& tree = before.group->tree;
-    if (before.misses(face)) continue;
+    if (!before.in_reach(face)) continue;
     if (before.moves_with_targets) {
       marked = tree.block_bundle(face.starts, before.eye, most, marks);
     } else {
@@ -163,7 +165,12 @@ std::optional<std::size_t> Occlusion::hidden_by(const Target& target, std::size_
   const Face face = face_before(target, from.eye);
   const std::size_t most = most_blocked(face);
   if (blocked(face, from, most) <= most) return std::nullopt;
+  // Rays that graze an edge may be blocked in a bundle and free alone: then a solid that is near is named.
   std::vector<std::size_t> rays_of(names_.size());
+  std::optional<std::size_t> near;
+  for (const View::Before& before : from.groups) {
+    if (!near) near = before.in_reach(face);
+  }
   for (const Vec3& start : face.starts) {
     double nearest = std::numeric_limits<double>::infinity();
     std::size_t solid = 0;
@@ -175,7 +182,8 @@ std::optional<std::size_t> Occlusion::hidden_by(const Target& target, std::size_
     }
     if (std::isfinite(nearest)) ++rays_of[solid];
   }
-  return static_cast<std::size_t>(std::max_element(rays_of.begin(), rays_of.end()) - rays_of.begin());
+  const auto most_rays = std::max_element(rays_of.begin(), rays_of.end());
+  return *most_rays > 0 ? static_cast<std::size_t>(most_rays - rays_of.begin()) : near;
 }
 
 MotionVisibility Occlusion::unhidden_targets(std::span<const Target> targets, std::size_t carrier,
