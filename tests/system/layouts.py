@@ -40,10 +40,10 @@ class Layouts(ProgramTest):
     # What a user sees
 
     def test_its_commands_show_examples_and_wrong_words_the_nearest(self):
-        for command in ("evaluate", "optimize"):
+        for command in ("evaluate", "optimize", "suggest"):
             self.assertIn(f"Example:\n  asterism layout {command}", self.run_program("layout", command, "--help").stdout)
         self.refused("layout: `optimise` is no command; did you mean `optimize`?", "layout", "optimise")
-        self.refused("layout: a command is needed, one of: evaluate, optimize", "layout")
+        self.refused("layout: a command is needed, one of: evaluate, optimize, suggest", "layout")
         self.refused("layout optimize: `--populaton` is no option of it; did you mean `--population`?", "layout", "optimize", "a", "--out",
                      "b", "--populaton", 3)
 
@@ -154,6 +154,51 @@ class Layouts(ProgramTest):
         self.assertFalse(list((self.at / "out").rglob("*.partial")))
         again = self.optimize("out", "--generations", summary["generations"] + 5, "--resume")
         self.assertEqual(again["generations"], summary["generations"] + 5)
+
+    # What to change next
+
+    def suggest(self, *words, status=0):
+        return json.loads(self.run_program("layout", "suggest", *words, "--json", "--places", 150, "--progress", "none", status=status).stdout)
+
+    def test_suggest_says_what_to_change_and_writes_it(self):
+        cell = self.cell()
+        found = self.suggest(cell, "--out", self.at / "next")
+        self.assertEqual(found, json.loads((self.at / "next/suggestion.json").read_text()))
+        self.assertIn(found["best"]["kind"], ("move", "add"))
+        self.assertIn(found["best"]["target"], found["verdict"])
+        self.assertTrue(any("visible" in limit for limit in found["limits"]), found["limits"])
+        scored = json.loads(self.run_program("layout", "evaluate", cell, "--json", "--bodies", self.at / "next/bodies.toml").stdout)["layouts"]
+        self.assertGreaterEqual(scored[1]["quantities"]["visible"], scored[0]["quantities"]["visible"])
+        self.assertIn("platform top", self.run_program("layout", "suggest", cell, "--places", 150).stdout)
+
+    def test_suggest_names_a_target_that_was_knocked_in_a_recording(self):
+        fault = '[[fault]]\nkind = "knocked"\nbody = "platform"\ntarget = "P2"\ntime_s = 1.0\nshift_mm = [0.8, -0.5, 0.0]\n\n[layout]  # where'
+        cell = self.cell(("[layout]  # where", fault))
+        self.run_program("simulate", cell, "--out", self.at / "recording", "--level", "centres", "--sigma-px", 0.05, "--progress", "none")
+        found = self.suggest(self.at / "recording", "--out", self.at / "next")
+        (named,) = [target for target in found["targets"] if target["observed"]["displaced"]]
+        self.assertEqual(named["id"], "P2")
+        for measured, true in zip(named["observed"]["displaced"]["mm"], (0.8, -0.5, 0.0)):
+            self.assertAlmostEqual(measured, true, delta=0.15)
+        self.assertAlmostEqual(named["observed"]["displaced"]["since_s"], 1.0, delta=0.3)
+        self.assertEqual(found["relearn"][0]["target"], "P2")
+
+    def test_suggest_without_a_cell_judges_what_is_there(self):
+        self.run_program("simulate", self.cell(), "--out", self.at / "recording", "--level", "centres", "--sigma-px", 0.05, "--progress", "none")
+        (self.at / "recording/cell.toml").unlink()
+        self.refused("name one with --body: platform, scanner", "layout", "suggest", self.at / "recording", "--progress", "none")
+        done = self.run_program("layout", "suggest", self.at / "recording", "--body", "platform", "--json", "--progress", "none",
+                                status=None)
+        self.assertIn("without a cell nothing is known of where targets may stand", done.stderr)
+        self.assertEqual(json.loads(done.stdout)["move"], [])
+
+    def test_suggest_refuses_wrong_words(self):
+        cell = self.cell()
+        self.refused("`swap` is none of move, add, remove", "layout", "suggest", cell, "--kinds", "swap")
+        self.refused("is no recording's folder but a cell itself", "layout", "suggest", cell, "--cell", cell)
+        self.refused("the cell's layout task is of `platform`", "layout", "suggest", cell, "--body", "scanner")
+        done = self.refused("No single change mends what is broken", "layout", "suggest", cell, "--kinds", "remove", status=3)
+        self.assertIn("remove", done.stdout)
 
     # Wrong input
 
