@@ -64,9 +64,9 @@ TEST(CompareLayouts, FindsTheWiderLayoutBetterAndSaysHowManyRunsItTakes) {
 
 TEST(CompareLayouts, FindsNoDifferenceBetweenALayoutAndItself) {
   const Cell cell = scene::cell();
-  const LayoutRuns same = runs_of(cell, 1, 60);
-  const LayoutComparison comparison =
-      compare_layouts(std::vector<LayoutRuns>{same, same}, RunQuantity::CentroidMm, true);
+  // Once as it is, once as a file would round it.
+  const std::vector<LayoutRuns> same = {runs_of(cell, 1, 60), runs_of(cell, 1 + 1e-9, 60)};
+  const LayoutComparison comparison = compare_layouts(same, RunQuantity::CentroidMm, true);
   EXPECT_EQ(comparison.pairs[0].all_p_holm, 1);
   EXPECT_FALSE(comparison.pairs[0].runs_needed.has_value());
 }

@@ -18,6 +18,8 @@ Value rounded(double value, int decimals) {
 
 std::string unit_of(RunQuantity quantity) { return quantity == RunQuantity::RotationDeg ? "deg" : "mm"; }
 
+Value p_value(double p) { return p < 1e-4 ? Value("< 0.0001") : rounded(p, 4); }
+
 /// "9 (5, 17, 18, …)"
 std::string first_of(const std::vector<std::size_t>& frames) {
   constexpr std::size_t kShown = 6;
@@ -122,8 +124,8 @@ ReportTable pair_table(const LayoutComparison& comparison) {
     const std::string verdict =
         !told ? "no difference shown" : fmt::format("{} is better", pair.all.difference < 0 ? a : b);
     table.rows.push_back(
-        {a + " – " + b, rounded(pair.first_p_holm, 4), rounded(pair.all.difference, 6),
-         rounded(pair.all_p_holm, 6), rounded(pair.power_of_first, 3),
+        {a + " – " + b, p_value(pair.first_p_holm), rounded(pair.all.difference, 6), p_value(pair.all_p_holm),
+         rounded(pair.power_of_first, 3),
          pair.runs_needed ? Value(static_cast<double>(*pair.runs_needed)) : Value(std::monostate{}),
          verdict});
     table.verdicts.push_back(told ? Verdict::Good : Verdict::Plain);
