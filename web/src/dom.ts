@@ -55,3 +55,11 @@ export function choice<T extends string | number>(label: string, options: { valu
   show(now);
   return { element: h('div', { class: 'choice', role: 'group', 'aria-label': label }, h('span', { class: 'choice-label' }, label), ...buttons), show };
 }
+
+/// One of many, from a list.
+export function picker(label: string, options: { value: string; text: string }[], now: string, choose: (value: string) => void): { element: HTMLElement; show: (value: string) => void } {
+  const list = h('select', { 'aria-label': label }, ...options.map(({ value, text }) => h('option', { value }, text)));
+  list.value = now;
+  list.addEventListener('change', () => choose(list.value));
+  return { element: h('label', { class: 'picker' }, h('span', { class: 'choice-label' }, label), list), show: (value) => (list.value = value) };
+}

@@ -5,7 +5,7 @@ import type { CellSelection } from '../data/cell_selection';
 import { count, times } from '../data/format';
 import { mapRange, type Mesh } from '../data/mesh';
 import type { Shared } from '../data/selection';
-import { choice, download, h } from '../dom';
+import { choice, download, h, picker } from '../dom';
 import { cellAxis, cellFigures } from '../plots/cell_figures';
 import { plotView, type PlotView } from '../plots/plot';
 import { kSeenColours, sightStrip } from '../plots/sight_strip';
@@ -18,6 +18,7 @@ import { measuringTool } from './measuring';
 import { spacePanel, type SpacePanel } from './space';
 import { timeline } from './timeline';
 
+const kFew = 4;  // named points that are offered side by side; more are in a list
 const kViews: CellViewPoint[] = ['cell', 'part', 'left camera', 'right camera', 'above', 'side'];
 
 /// The cell in 3-D with its time slider, the moment in numbers, and the tool that measures.
@@ -104,12 +105,13 @@ export function cellPlots(report: CellReport, shared: Shared<CellSelection>): { 
 }
 
 function plotControls(report: CellReport, shared: Shared<CellSelection>): HTMLElement {
-  const point = choice('Error at', report.points.map((one, i) => ({ value: i, text: one.name })), shared.now.point, (value) => shared.set({ point: value }));
+  const points = report.points.map((one, i) => ({ value: String(i), text: one.name }));
+  const point = (points.length > kFew ? picker : choice<string>)('Error at', points, String(shared.now.point), (value) => shared.set({ point: Number(value) }));
   const scale = choice<CellSelection['scale']>('Scale', [{ value: 'linear', text: 'linear' }, { value: 'log', text: 'log' }], shared.now.scale, (value) => shared.set({ scale: value }));
   const body = choice('Sight of', report.bodies.map((one, i) => ({ value: i, text: one.name })), shared.now.body, (value) => shared.set({ body: value }));
   const all = h('button', { type: 'button', hidden: true, onclick: () => shared.set({ range: null }) }, 'whole time');
   shared.watch((now) => {
-    point.show(now.point);
+    point.show(String(now.point));
     scale.show(now.scale);
     body.show(now.body);
     all.hidden = now.range === null;

@@ -3,7 +3,7 @@ import { count } from '../data/format';
 import { measureText, objectivesOf, type LayoutReport } from '../data/layout';
 import type { LayoutSelection } from '../data/layout_selection';
 import type { Place, Shared } from '../data/selection';
-import { h } from '../dom';
+import { h, picker } from '../dom';
 import type { Figure } from '../plots/figures';
 import { layoutWords } from '../plots/layout_marks';
 import { parallelView } from '../plots/parallel';
@@ -14,14 +14,6 @@ import { spacePanel, type SpacePanel } from './space';
 import { timeline } from './timeline';
 
 const kViews: LayoutViewPoint[] = ['targets', 'onto the surface', 'cell', 'left camera', 'side'];
-
-/// A row of choices from a list.
-function picker(label: string, options: { value: string; text: string }[], now: string, choose: (value: string) => void): { element: HTMLElement; show: (value: string) => void } {
-  const list = h('select', { 'aria-label': label }, ...options.map(({ value, text }) => h('option', { value }, text)));
-  list.value = now;
-  list.addEventListener('change', () => choose(list.value));
-  return { element: h('label', { class: 'picker' }, h('span', { class: 'choice-label' }, label), list), show: (value) => (list.value = value) };
-}
 
 /// The layout before the tracker, with its own choice of layout and of the pose in the motion.
 export function layoutPanel(report: LayoutReport, shared: Shared<LayoutSelection>): SpacePanel<LayoutSceneView> {
