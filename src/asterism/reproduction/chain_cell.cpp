@@ -55,7 +55,7 @@ RigidMotion platform_from_first_station() {
 
 std::vector<Target> chain_targets(std::span<const Vec3> places) {
   std::vector<Target> targets;
-  for (const Vec3& place : places) targets.push_back(target_at(targets.size(), place, rad_from_deg(20)));
+  for (const Vec3& place : places) targets.push_back(target_at(targets.size(), place, 0));
   return targets;
 }
 
@@ -77,6 +77,8 @@ Cell chain_cell(const std::vector<Target>& targets, const TrackerPlace& place) {
   cell.movers.push_back({{"platform", targets}, motion_of(place)});
   cell.movers.push_back({scanner_body(), at_rest(rig_from_platform(place) * platform_from_first_station())});
   cell.platform = Platform{};
+  // 15° about x and then about y are up to 15.5° of roll in the order of Table 8's yaw, pitch, roll.
+  cell.platform->stroke.roll_deg = 15.6;
   cell.workpiece =
       Solid{"casing", std::make_shared<TriangleMesh>(mesh_of(CasingShape{})), "platform", {}, {}};
   cell.scanner = Scanner{};

@@ -14,7 +14,8 @@ namespace asterism {
 /// casing of Table 15 around the targets, the scanner at its first station. Discs of 8 mm.
 [[nodiscard]] Cell chain_cell(const std::vector<Target>& targets, const TrackerPlace& place = {});
 
-/// Targets that face up, tilted outwards by 20° as the ring's.
+/// Targets that face up: the paper tells no normals of its schemes. Both cameras then see all of them through
+/// the whole motion.
 [[nodiscard]] std::vector<Target> chain_targets(std::span<const Vec3> places);
 /// The eight targets of Figure 20.
 [[nodiscard]] std::vector<Target> chain_ring(const RingOfTargets& ring = {});
