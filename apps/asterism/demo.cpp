@@ -13,11 +13,15 @@ namespace asterism::app {
 namespace {
 
 nlohmann::ordered_json json_of(const DemoResult& result) {
-  nlohmann::ordered_json json = {{"cell", result.cell},
-                                 {"frames", result.simulated.frames},
-                                 {"simulating_s", result.simulating_s},
-                                 {"tracking_s", result.tracking_s},
-                                 {"report", result.report.string()}};
+  nlohmann::ordered_json json = {
+      {"cell", result.cell},
+      {"frames", result.simulated.frames},
+      {"simulating_s", result.simulating_s},
+      {"tracking_s", result.tracking_s},
+      {"verifying_s", result.verifying_s},
+      {"verdict", {{"pass", result.verdict.pass}, {"words", result.verdict.words}}},
+      {"report", result.report.string()},
+      {"tracking_page", result.tracking_page.string()}};
   for (const PoseErrors& errors : result.errors) {
     nlohmann::ordered_json body = {{"body", errors.body},
                                    {"found", errors.found()},
@@ -33,9 +37,9 @@ nlohmann::ordered_json json_of(const DemoResult& result) {
 }
 
 std::string text_of(const DemoResult& result) {
-  std::string text =
-      fmt::format("\n{}: {} stereo frames simulated in {:.1f} s, tracked in {:.1f} s\n\n", result.cell,
-                  result.simulated.frames, result.simulating_s, result.tracking_s);
+  std::string text = fmt::format(
+      "\n{}: {} stereo frames simulated in {:.1f} s, tracked in {:.1f} s; verified in {:.1f} s\n\n",
+      result.cell, result.simulated.frames, result.simulating_s, result.tracking_s, result.verifying_s);
   text += fmt::format("  {:<10} {:>9} {:>6} {:>20} {:>20} {:>8}\n", "body", "poses", "wrong",
                       "translation mm", "rotation deg", "NEES/6");
   text += fmt::format("  {:<10} {:>9} {:>6} {:>20} {:>20} {:>8}\n", "", "", "", "RMS      max",
@@ -46,10 +50,13 @@ std::string text_of(const DemoResult& result) {
                         e.translation_mm.max, e.rotation_deg.rms, e.rotation_deg.max,
                         e.honesty ? fmt::format("{:.2f}", e.honesty->mean_nees / 6) : "");
   }
-  return text + fmt::format(
-                    "\n  translation at the targets' centroid; NEES/6 = 1: the stated covariance is honest\n"
-                    "  report: {}\n",
-                    result.report.string());
+  return text +
+         fmt::format(
+             "\n  translation at the targets' centroid; NEES/6 = 1: the stated covariance is honest\n\n"
+             "  the cell in motion: {}\n\n"
+             "  report: {}\n"
+             "  frame by frame: {}\n",
+             result.verdict.words, result.report.string(), result.tracking_page.string());
 }
 
 void run(const DemoJob& job, const Common& common) {
@@ -67,7 +74,7 @@ void add_demo(CLI::App& root, Common& common) {
                   "asterism demo --out out/demo");
   auto job = std::make_shared<DemoJob>();
   job->out = "out/demo";
-  command->add_flag("--quick", job->quick, "a fifth of the frames");
+  command->add_flag("--quick", job->quick, "a fifth of the frames, few disturbances, no faults");
   command->add_option("--out", job->out, "folder of the results")->capture_default_str();
   on_call(*command, common, [=, &common] { run(*job, common); });
 }

@@ -109,8 +109,23 @@ void report(const DemoJob& job, const Recording& recording, const std::vector<Po
   page.frames = result.tracked.frames;
   page.truth = truth_by_frame(recording, truth, page.bodies);
   page.options_json = json_of_options(describing(options)).dump(2);
+  result.tracking_page = job.out / "track/report.html";
+  write_report(result.tracking_page, page);
+}
+
+/// Along the motion: what will be seen, how good it is, what becomes of it under faults.
+void verify(const Cell& cell, const DemoJob& job, const Progress& progress, DemoResult& result) {
+  VerifyJob verification;
+  verification.out = job.out;
+  verification.seed = job.seed;
+  if (job.quick) {
+    verification.options.repeats = 2;
+    verification.options.runs = 200;
+    verification.options.budget_blocks = 1;
+    verification.options.faults = verification.options.fusion = false;
+  }
+  result.verdict = verify_cell(cell, verification, progress).verdict;
   result.report = job.out / "report.html";
-  write_report(result.report, page);
 }
 
 }  // namespace
@@ -138,6 +153,10 @@ DemoResult run_demo(const DemoJob& job, const Progress& progress) {
   const std::vector<PoseRecord> truth = read_poses(simulate.out / "truth_poses.csv");
   evaluate(recording, truth, result);
   report(job, recording, truth, track.options, result);
+
+  start = std::chrono::steady_clock::now();
+  verify(cell, job, progress, result);
+  result.verifying_s = seconds_since(start);
   return result;
 }
 
