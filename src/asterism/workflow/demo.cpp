@@ -121,7 +121,7 @@ void verify(const Cell& cell, const DemoJob& job, const Progress& progress, Demo
   if (job.quick) {
     verification.options.repeats = 2;
     verification.options.runs = 200;
-    verification.options.budget_blocks = 1;
+    verification.options.budget_blocks = 2;
     verification.options.faults = verification.options.fusion = false;
   }
   result.verdict = verify_cell(cell, verification, progress).verdict;
