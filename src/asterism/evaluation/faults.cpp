@@ -191,6 +191,17 @@ std::size_t verified_body(const Cell& cell) {
   return found < 0 ? 0 : static_cast<std::size_t>(found);
 }
 
+std::vector<Vec3> points_in_question(const Cell& cell) {
+  const Body& body = cell.movers[verified_body(cell)].body;
+  std::vector<Vec3> points;
+  for (const WorkPoint& point : cell.verification.points) points.push_back(point.in_body_mm);
+  if (points.empty() && cell.layout && cell.layout->body == body.name) {
+    for (const WorkPoint& point : cell.layout->points) points.push_back(point.in_body_mm);
+  }
+  if (points.empty()) points.push_back(targets_middle(body));
+  return points;
+}
+
 std::vector<Body> bodies_as_learnt(const Cell& cell) {
   std::vector<Body> bodies = bodies_of(cell);
   const double variance = cell.noise.map_sigma_mm * cell.noise.map_sigma_mm;

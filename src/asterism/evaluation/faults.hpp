@@ -41,6 +41,10 @@ struct FaultRun {
 /// else the first.
 [[nodiscard]] std::size_t verified_body(const Cell& cell);
 
+/// Where errors are told, in the frame of the verified body: the verification's points, else the layout
+/// task's, else the middle of the targets.
+[[nodiscard]] std::vector<Vec3> points_in_question(const Cell& cell);
+
 /// What the tracker is told: the bodies of the cell, each target with the covariance that it states or
 /// that the noise model's `map_sigma_mm` gives it.
 [[nodiscard]] std::vector<Body> bodies_as_learnt(const Cell& cell);

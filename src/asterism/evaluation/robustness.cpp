@@ -28,19 +28,6 @@ struct RunOutcome {
   std::vector<double> detectable_mm, detectable_at_once_mm;
 };
 
-/// Where errors are told: the verification's points, the layout task's, or the targets' middle.
-std::vector<Vec3> points_of(const Cell& cell, const Body& body) {
-  std::vector<Vec3> points;
-  for (const WorkPoint& point : cell.verification.points) points.push_back(point.in_body_mm);
-  if (points.empty() && cell.layout && cell.layout->body == body.name) {
-    for (const WorkPoint& point : cell.layout->points) points.push_back(point.in_body_mm);
-  }
-  if (!points.empty()) return points;
-  Vec3 middle = Vec3::Zero();
-  for (const Target& target : body.targets) middle += target.position;
-  return {middle / static_cast<double>(body.targets.size())};
-}
-
 /// Holds what is said of the body's shape against what was done to it.
 void judge(const ShapeCheck& check, const FaultRun& run, const Vec3& displaced_mm, RunOutcome& outcome) {
   outcome.detectable_mm = check.detectable_mm;
@@ -134,11 +121,14 @@ std::vector<FaultOutcome> rows_of(const std::vector<FaultRun>& runs,
 
 }  // namespace
 
+bool is_seen(const TargetTruth& target) {
+  return target.in_image && target.visible >= kWhole && target.brightness >= kBright;
+}
+
 Shown shown_in(const SimulatedFrame& frame, std::size_t body) {
   std::map<int, int> cameras;
   for (const TargetTruth& target : frame.truth.targets) {
-    const bool seen = target.in_image && target.visible >= kWhole && target.brightness >= kBright;
-    if (target.body == static_cast<int>(body) && seen) ++cameras[target.target];
+    if (target.body == static_cast<int>(body) && is_seen(target)) ++cameras[target.target];
   }
   const auto both =
       std::count_if(cameras.begin(), cameras.end(), [](const auto& at) { return at.second == 2; });
@@ -224,7 +214,7 @@ RobustnessTable robustness_of(const Cell& cell, const RobustnessOptions& options
   const std::vector<FaultRun> runs = fault_runs(cell, options);
   const std::vector<Body> learnt = bodies_as_learnt(cell);
   const std::size_t body = verified_body(cell);
-  const std::vector<Vec3> points = points_of(cell, learnt[body]);
+  const std::vector<Vec3> points = points_in_question(cell);
   std::vector<RunOutcome> outcomes(runs.size());
   for (std::size_t first = 0; first < runs.size(); first += kBatch) {
     progress("trying faults", first, runs.size());

@@ -39,6 +39,8 @@ struct Shown {
   RigidMotion tracker_from_body;
   bool enough = false;  // four targets seen by both cameras
 };
+/// Whole and bright enough for simulation to make a centre of it.
+[[nodiscard]] bool is_seen(const TargetTruth& target);
 [[nodiscard]] Shown shown_in(const SimulatedFrame& frame, std::size_t body);
 
 /// Counts one pose of that body; errors are told at the worst of `points` (in its frame).
