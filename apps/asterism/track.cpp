@@ -3,11 +3,13 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "asterism/core/result.hpp"
 #include "asterism/io/body_file.hpp"
 #include "asterism/io/image_file.hpp"
 #include "asterism/io/rig_file.hpp"
+#include "asterism/workflow/fuse_recording.hpp"
 #include "asterism/workflow/track_recording.hpp"
 #include "commands.hpp"
 #include "common.hpp"
@@ -20,6 +22,9 @@ struct Call {
   std::vector<std::string> left, right;
   double rate_hz = 10;
   bool covariance = false, tum = false;
+  std::string read_out, read_out_body;
+  std::optional<double> read_out_latency_s;
+  double read_out_correlation_s = 0;
 };
 
 std::vector<std::filesystem::path> images_of(const std::vector<std::string>& named) {
@@ -79,8 +84,34 @@ std::string text_of(const nlohmann::ordered_json& summary, const std::string& ou
                             frames / seconds, out);
 }
 
+std::optional<FuseJob> fuse_job_of(const Call& call, const Recording& recording) {
+  if (call.read_out.empty() || !recording.bodies) return std::nullopt;
+  return fuse_job_of(
+      {call.read_out, call.read_out_body, call.read_out_latency_s, call.read_out_correlation_s},
+      *recording.bodies);
+}
+
+/// The platform's own read-out beside the tracker, where it is given.
+std::string fuse(const std::optional<FuseJob>& job, const TrackedRun& tracked, const TrackJob& track,
+                 nlohmann::ordered_json& summary) {
+  if (!job) return "";
+  const FusedRecording fusion = fuse_recording(tracked, *job, track.options.filter, track.out);
+  summary["fusion"] = summary_of(fusion);
+  std::string text = fmt::format("{} with its platform's read-out:", fusion.body);
+  for (const auto& [status, count] : summary["fusion"]["status"].items()) {
+    if (count.get<int>() > 0) text += fmt::format(" {} {}", status, count.get<int>());
+  }
+  if (fusion.offset) {
+    text += fmt::format("   late by {:.2f} ± {:.2f} ms, {} of {} readings refused", 1e3 * fusion.latency_s,
+                        1e3 * fusion.latency_sigma_s, fusion.offset->refused,
+                        fusion.offset->readings + fusion.offset->refused);
+  }
+  return text + "\n";
+}
+
 void run(const Call& call, const TrackerOptions& options, const Common& common) {
   const Recording recording = recording_of(call);
+  const std::optional<FuseJob> fusing = fuse_job_of(call, recording);
   const TrackJob job{call.out, options, call.covariance, call.tum};
   const TrackedRun tracked = track_recording(recording, job, make_progress(common));
   constexpr std::size_t kShown = 5;
@@ -89,8 +120,9 @@ void run(const Call& call, const TrackerOptions& options, const Common& common) 
   if (tracked.warnings.size() > kShown) {
     print_warning(fmt::format("… and {} more, in summary.json", tracked.warnings.size() - kShown));
   }
-  const nlohmann::ordered_json summary = summary_of(tracked, options);
-  print_result(common, summary, text_of(summary, call.out));
+  nlohmann::ordered_json summary = summary_of(tracked, options);
+  const std::string fusion = fuse(fusing, tracked, job, summary);
+  print_result(common, summary, fusion + text_of(summary, call.out));
   for (const auto& body : summary["bodies"]) {
     if (body.contains("rms_px")) return;
   }
@@ -117,6 +149,16 @@ void add_track(CLI::App& root, Common& common) {
       ->capture_default_str();
   command->add_flag("--covariance", call->covariance, "write poses.json with full 6×6 covariances");
   command->add_flag("--tum", call->tum, "write a TUM trajectory a body (seconds, metres)");
+  command->add_option("--read-out", call->read_out,
+                      "what a platform said of its own pose (CSV): poses_fused.csv too, filtered with it");
+  command->add_option("--read-out-body", call->read_out_body, "the body it turns; else the first");
+  command->add_option("--read-out-latency", call->read_out_latency_s,
+                      "seconds by which its readings are late, where known; else told from the run");
+  command
+      ->add_option("--read-out-correlation", call->read_out_correlation_s,
+                   "seconds for which its noise keeps its value; 0: each reading anew")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   const auto options = step_options<TrackerOptions>(*command);
   on_call(*command, common, [=, &common] { run(*call, options(), common); });
 }

@@ -121,6 +121,28 @@ class System(ProgramTest):
             self.assertTrue((self.at / "out" / name).read_text(), name)
         self.assertFalse(list((self.at / "out").glob("*.partial")))
 
+    def test_track_carries_a_platform_through_darkness_by_its_read_out(self):
+        self.run_program("simulate", "engine_casing", "--level", "centres", "--out", self.at / "run")
+        table = self.at / "run/centres.csv"
+        rows = table.read_text().splitlines()
+        table.write_text("\n".join(row for row in rows if not 50 <= int(row.split(",")[0].replace("frame", "0")) < 60) + "\n")
+        done = self.run_program("track", self.at / "run", "--out", self.at / "out", "--read-out", self.at / "run/read_out.csv",
+                                "--read-out-body", "platform", "--json")
+        told = json.loads(done.stdout)["fusion"]
+        self.assertEqual(told, json.loads((self.at / "out/fusion.json").read_text()))
+        self.assertLess(abs(told["latency_s"]), 5 * told["latency_sigma_s"])
+        self.assertLess(told["latency_sigma_s"], 1e-3)
+        self.assertGreaterEqual(told["status"]["PREDICTED"], 10)
+        errors = {}
+        for name in ("poses_fused", "poses_filtered"):
+            done = self.run_program("evaluate", self.at / f"out/{name}.csv", "--truth", self.at / "run/truth_poses.csv",
+                                    "--body", "platform", "--at", "0,500,600", "--json")
+            errors[name] = json.loads(done.stdout)["bodies"][0]["translation_mm"]["max"]
+        self.assertLess(errors["poses_fused"], 4)  # the read-out's own noise there, and how fast a body may turn
+        self.assertGreater(errors["poses_filtered"], 10 * errors["poses_fused"])
+        self.refused("`platfrom` is no body of the recording; did you mean `platform`?", "track", self.at / "run", "--out", self.at / "out",
+                     "--read-out", self.at / "run/read_out.csv", "--read-out-body", "platfrom")
+
     def test_steps_one_by_one_give_what_track_gives(self):
         self.recording(2)
         images = sorted(self.at.glob("*/*.pgm"))

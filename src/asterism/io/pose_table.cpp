@@ -3,39 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "asterism/core/result.hpp"
 #include "asterism/io/csv_file.hpp"
+#include "asterism/io/pose_columns.hpp"
 
 namespace asterism {
-namespace {
-
-RigidMotion motion_of(const CsvTable& table, std::size_t row) {
-  const auto at = [&](const char* column) { return table.number(row, column); };
-  const Quaternion rotation(at("qw"), at("qx"), at("qy"), at("qz"));
-  if (!(std::abs(rotation.norm() - 1) < 1e-3)) {
-    table.refuse(row, "qw", fmt::format("qw to qz have length {:.6g}; a rotation's is 1", rotation.norm()));
-  }
-  return {rotation.normalized(), {at("x_mm"), at("y_mm"), at("z_mm")}};
-}
-
-std::optional<Mat6> covariance_of(const CsvTable& table, std::size_t row) {
-  constexpr const char* kColumns[] = {"sigma_rx_deg", "sigma_ry_deg", "sigma_rz_deg",
-                                      "sigma_x_mm",   "sigma_y_mm",   "sigma_z_mm"};
-  Vec6 sigma;
-  for (Eigen::Index i = 0; i < 6; ++i) {
-    const auto value = table.optional_number(row, kColumns[i]);
-    if (!value) return std::nullopt;
-    sigma(i) = i < 3 ? rad_from_deg(*value) : *value;
-  }
-  return Mat6(sigma.cwiseAbs2().asDiagonal());
-}
-
-}  // namespace
 
 std::vector<PoseRecord> read_poses(const std::filesystem::path& file) {
   const CsvTable table(file, {"frame", "body", "x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz"});
@@ -112,19 +88,13 @@ void PoseTable::write(const PoseRecord& pose) {
   file_.write(
       fmt::format("{},{},{},{},", pose.frame, pose.time_s, csv_cell(pose.body), text_of(pose.status)));
   if (pose.tracker_from_body) {
-    const Vec3& t = pose.tracker_from_body->translation;
-    const Quaternion& q = pose.tracker_from_body->rotation;
-    const double sign = q.w() < 0 ? -1 : 1;
-    file_.write(fmt::format("{:.6f},{:.6f},{:.6f},{:.12f},{:.12f},{:.12f},{:.12f},", t.x(), t.y(), t.z(),
-                            sign * q.w(), sign * q.x(), sign * q.y(), sign * q.z()));
+    file_.write(pose_cells(*pose.tracker_from_body) + ",");
   } else {
     file_.write(",,,,,,,");
   }
   file_.write(fmt::format("{},{:.5f}", pose.targets, pose.rms_px));
   if (pose.tracker_from_body && pose.covariance) {
-    const Vec6 sigma = pose.covariance->diagonal().cwiseSqrt();
-    file_.write(fmt::format(",{:.6f},{:.6f},{:.6f},{:.7f},{:.7f},{:.7f}\n", sigma(3), sigma(4), sigma(5),
-                            deg_from_rad(sigma(0)), deg_from_rad(sigma(1)), deg_from_rad(sigma(2))));
+    file_.write("," + sigma_cells(*pose.covariance) + "\n");
   } else {
     file_.write(",,,,,,\n");
   }

@@ -15,8 +15,10 @@
 #include "asterism/io/centre_table.hpp"
 #include "asterism/io/csv_file.hpp"
 #include "asterism/io/image_file.hpp"
+#include "asterism/io/reading_table.hpp"
 #include "asterism/io/recording.hpp"
 #include "asterism/io/rig_file.hpp"
+#include "asterism/simulation/read_out.hpp"
 
 namespace asterism {
 namespace {
@@ -104,7 +106,8 @@ void make_folders(const SimulateJob& job) {
   std::error_code error;
   std::filesystem::create_directories(job.out, error);
   // What an earlier run left would make a recording of two halves.
-  for (const char* old : {"frames.csv", "centres.csv"}) std::filesystem::remove(job.out / old, error);
+  for (const char* old : {"frames.csv", "centres.csv", "read_out.csv"})
+    std::filesystem::remove(job.out / old, error);
   if (job.options.level == SimulationLevel::Centres) return;
   for (const char* side : {"left", "right"}) std::filesystem::create_directories(job.out / side, error);
   if (error) throw InputError(job.out.string(), "cannot be made: " + error.message());
@@ -131,6 +134,7 @@ SimulatedRecording simulate_recording(const Cell& cell, const SimulateJob& job, 
   write_rig(job.out / "rig.yaml", cell.rig);
   write_bodies(job.out / "bodies.toml", bodies_of(cell));
   write_cell(job.out / "cell.toml", cell);
+  if (cell.platform) write_readings(job.out / "read_out.csv", simulate_read_out(cell, job.options.seed));
   TruthTables tables(job.out, bodies_of(cell), !images);
   SimulatedRecording counts;
   constexpr std::size_t kBatch = 8;  // frames in memory at once

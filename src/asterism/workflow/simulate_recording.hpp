@@ -27,9 +27,9 @@ struct SimulatedRecording {
 };
 
 /// Makes all frames of the cell and writes them as a recording with truth: rig.yaml, bodies.toml,
-/// frames.csv, left/ and right/ images or centres.csv, truth_poses.csv, truth_targets.csv, and the cell
-/// itself as cell.toml. frames.csv comes last: a folder that has it is whole. Throws InputError when the
-/// cell is not sound or the folder cannot be written.
+/// frames.csv, left/ and right/ images or centres.csv, truth_poses.csv, truth_targets.csv, the cell itself as
+/// cell.toml, and where it has a platform what that says of itself as read_out.csv. frames.csv comes last: a
+/// folder that has it is whole. Throws InputError when the cell is not sound or the folder cannot be written.
 SimulatedRecording simulate_recording(const Cell& cell, const SimulateJob& job, const Progress& progress);
 
 }  // namespace asterism
