@@ -188,9 +188,10 @@ TEST(RemarksOn, TellWhatIsOddAboutASurfaceAndNothingElse) {
   cell.fixtures[0].surface = shared(open);
   const std::vector<std::string> remarks = remarks_on(cell);
   ASSERT_EQ(remarks.size(), 3U);
-  EXPECT_TELLS(remarks[0], "`clamp`: 3 edges belong to one triangle alone: the surface is open there");
-  EXPECT_TELLS(remarks[1], "`clamp`: 3 edges lie between triangles that face different ways");
-  EXPECT_TELLS(remarks[2], "`clamp`: 1 triangles have no area");
+  EXPECT_TELLS(remarks[0],
+               "`clamp`: the surface is open, edges of one triangle alone: 3; it hides targets as it is");
+  EXPECT_TELLS(remarks[1], "`clamp`: triangles face different ways, edges between such: 3;");
+  EXPECT_TELLS(remarks[2], "`clamp`: triangles without area: 1; they hide nothing");
 }
 
 }  // namespace

@@ -69,19 +69,16 @@ void check_solid(const Solid& solid, const Cell& cell, const std::string& here) 
 
 void remark_on(const Solid& solid, std::vector<std::string>& remarks) {
   const MeshFacts facts = facts_of(*solid.surface);
-  const auto add = [&](std::size_t count, const char* what) {
-    if (count > 0) remarks.push_back(fmt::format("`{}`: {} {}", solid.name, count, what));
+  const auto add = [&](std::size_t count, const char* what, const char* so) {
+    if (count > 0) remarks.push_back(fmt::format("`{}`: {}: {}; {}", solid.name, what, count, so));
   };
-  add(facts.boundary_edges,
-      "edges belong to one triangle alone: the surface is open there; it hides targets as it is, but what is "
-      "inside it cannot be told");
-  add(facts.non_manifold_edges,
-      "edges belong to more than two triangles: the surface is not manifold there; it hides targets as it "
-      "is");
-  add(facts.flipped_edges,
-      "edges lie between triangles that face different ways: its outside cannot be told there; it hides "
-      "targets as it is");
-  add(facts.degenerate, "triangles have no area and hide nothing");
+  add(facts.boundary_edges, "the surface is open, edges of one triangle alone",
+      "it hides targets as it is, but what is inside it cannot be told");
+  add(facts.non_manifold_edges, "the surface is not manifold, edges of more than two triangles",
+      "it hides targets as it is");
+  add(facts.flipped_edges, "triangles face different ways, edges between such",
+      "it hides targets as it is, but its outside cannot be told");
+  add(facts.degenerate, "triangles without area", "they hide nothing");
 }
 
 }  // namespace
