@@ -5,10 +5,12 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "asterism/cell/occluders.hpp"
 #include "asterism/core/files_for_tests.hpp"
 #include "asterism/core/random.hpp"
+#include "asterism/io/mesh_formats.hpp"
 
 namespace asterism {
 namespace {
@@ -273,8 +275,11 @@ TEST(ReadMesh, NeverCrashesOnDamage) {
                                                                   {"b.ply", binary_ply(true)},
                                                                   {"c.ply", folder.read("whole.ply")},
                                                                   {"a.stl", folder.read("whole.stl")}};
+  using Reader = TriangleMesh (*)(std::string_view, const std::filesystem::path&);
+  const std::map<std::string, Reader> readers = {
+      {"off", mesh_of_off}, {"obj", mesh_of_obj}, {"ply", mesh_of_ply}, {"stl", mesh_of_stl}};
   RandomStream random(11, 0);
-  for (int trial = 0; trial < 600; ++trial) {
+  for (int trial = 0; trial < 1200; ++trial) {
     auto [name, bytes] = files[static_cast<std::size_t>(trial) % files.size()];
     for (int i = 0; i < 3; ++i) {
       const auto at = static_cast<std::size_t>(random.uniform(0, static_cast<double>(bytes.size())));
@@ -282,7 +287,7 @@ TEST(ReadMesh, NeverCrashesOnDamage) {
     }
     if (trial % 3 == 0) bytes.resize(bytes.size() / 2);
     try {
-      const TriangleMesh mesh = read_mesh(folder.write(name, bytes));
+      const TriangleMesh mesh = readers.at(name.substr(2))(bytes, name);
       for (const auto& triangle : mesh.triangles) {
         for (const std::uint32_t corner : triangle) ASSERT_LT(corner, mesh.vertices.size());
       }
