@@ -48,11 +48,11 @@ class Layouts(ProgramTest):
                      "b", "--populaton", 3)
 
     def test_evaluate_says_what_a_layout_breaks_and_where_it_is_weak(self):
-        cell = self.cell()
+        cell = self.cell(("losses = 1", "losses = 2"))
         done = self.run_program("layout", "evaluate", cell, "--published", "--json", "--out", self.at / "out")
         present, *published = json.loads(done.stdout)["layouts"]
         self.assertFalse(present["feasible"])
-        self.assertRegex(present["breaks"][0], r"visible is \d, at least 5 asked: \d missing")
+        self.assertRegex(present["breaks"][0], r"visible is \d, at least 6 asked: \d missing")
         self.assertEqual(len(published), 8)
         # Table 9's S1 can be taken for itself half a turn round.
         self.assertAlmostEqual(next(one for one in published if one["name"].endswith("9 S1"))["quantities"]["identifiability"], 0.271, delta=2e-3)
