@@ -27,7 +27,7 @@ SuggestionSubject subject_of(const Call& call, SuggestOptions& options, const Co
       throw InputError("--cell",
                        fmt::format("`{}` is no recording's folder but a cell itself", call.subject));
     }
-    subject.cell = cell_of(call.subject);
+    subject.cell = cell_for(call.subject);
     if (!call.body.empty() && subject.cell.layout && subject.cell.layout->body != call.body) {
       throw InputError("--body", fmt::format("the cell's layout task is of `{}`", subject.cell.layout->body));
     }
@@ -36,7 +36,7 @@ SuggestionSubject subject_of(const Call& call, SuggestOptions& options, const Co
   const std::filesystem::path own = std::filesystem::path(call.subject) / "cell.toml";
   std::optional<Cell> cell;
   if (!call.cell.empty()) {
-    cell = cell_of(call.cell);
+    cell = cell_for(call.cell);
   } else if (std::filesystem::exists(own)) {
     cell = read_cell(own);
   }
