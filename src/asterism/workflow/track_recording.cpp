@@ -232,6 +232,14 @@ void write_smoothed(const Recording& recording, const TrackJob& job, const Track
   for (const Body& body : run.bodies) write_tum(job.out / (body.name + ".tum"), measured, body.name);
 }
 
+void check_shapes(const StereoRig& rig, const TrackerOptions& options, TrackedRun& run) {
+  for (std::size_t body = 0; body < run.bodies.size(); ++body) {
+    run.shapes.push_back(check_shape(body, run.frames, run.bodies, rig, {}, options.views));
+    for (const KnockedTarget& knocked : run.shapes.back().knocked)
+      run.warnings.push_back(words_of(knocked, run.bodies[body]));
+  }
+}
+
 }  // namespace
 
 TrackedRun track_recording(const Recording& recording, const TrackJob& job, const Progress& progress) {
@@ -250,6 +258,7 @@ TrackedRun track_recording(const Recording& recording, const TrackJob& job, cons
     tables.finish();
     count_failures(tracker, run);
     refuse_if_nothing_was_read(recording, run);
+    check_shapes(*recording.rig, job.options, run);
     {
       const Stopwatch smoothing(run.seconds.smoothing);
       run.smoothed = smooth(run.frames, job.options.filter);

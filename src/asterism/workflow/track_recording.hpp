@@ -9,6 +9,7 @@
 
 #include "asterism/core/progress.hpp"
 #include "asterism/io/recording.hpp"
+#include "asterism/tracking/knocked_targets.hpp"
 #include "asterism/tracking/tracker.hpp"
 
 namespace asterism {
@@ -40,6 +41,7 @@ struct TrackedRun {
   std::vector<Body> bodies;
   std::vector<TrackedFrame> frames;
   std::vector<std::vector<BodyPose>> smoothed;  // one row a frame, one pose a body
+  std::vector<ShapeCheck> shapes;               // one a body: which of its targets were knocked
   std::vector<UnreadableImage> unreadable;
   std::vector<std::string> warnings;
   std::map<std::string, int> pose_failures;  // reasons why a body that was found got no pose
@@ -54,7 +56,12 @@ struct TrackedRun {
 [[nodiscard]] TrackedRun track_recording(const Recording& recording, const TrackJob& job,
                                          const Progress& progress);
 
-/// What summary.json holds: counts of statuses by body, residuals, reasons, times, the effective options.
+/// "target `P3` of body `platform` has moved by 1.00 mm: (0.60, -0.50, 0.62) ± (0.01, 0.01, 0.02) mm, left
+/// out in 98 % of 120 frames; …"
+[[nodiscard]] std::string words_of(const KnockedTarget& knocked, const Body& body);
+
+/// What summary.json holds: counts of statuses by body, residuals, targets refused and knocked, reasons,
+/// times, the effective options.
 [[nodiscard]] nlohmann::ordered_json summary_of(const TrackedRun& run, const TrackerOptions& options);
 
 }  // namespace asterism

@@ -75,6 +75,23 @@ TEST(TrackRecording, WritesThePosesThatMadeTheCentres) {
   EXPECT_TRUE(run.warnings.empty());
 }
 
+TEST(TrackRecording, NamesATargetThatWasKnockedAndByHowMuch) {
+  const TestFolder folder;
+  Recording recording = recording_of_centres(12);
+  // The file has the target elsewhere than the centres were made with: it moved by (−0.8, 0, 0.6).
+  recording.bodies->front().targets[3].position += Vec3(0.8, 0, -0.6);
+  const TrackedRun run = track_recording(recording, job_in(folder), no_progress);
+  ASSERT_EQ(run.warnings.size(), 1U);
+  EXPECT_TELLS(run.warnings[0], "target `P3` of body `part` has moved by 1.00 mm: (-0.8");
+  EXPECT_TELLS(run.warnings[0], "left out in 100 % of 12 frames");
+  const auto summary = nlohmann::json::parse(folder.read("out/summary.json"));
+  const auto& body = summary["bodies"][0];
+  EXPECT_EQ(body["rejected"]["P3"], 12);
+  EXPECT_EQ(body["knocked"][0]["target"], "P3");
+  EXPECT_NEAR(body["knocked"][0]["shift_mm"][2].get<double>(), 0.6, 0.03);  // depth, known to 0.02 mm
+  EXPECT_LT(body["detectable_knock_mm"]["P3"].get<double>(), 0.5);
+}
+
 TEST(TrackRecording, KeepsWhatWasMeasuredWhenItIsStopped) {
   const TestFolder folder;
   const Progress stop = [](std::string_view, std::size_t done, std::size_t) {

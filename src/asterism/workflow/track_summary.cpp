@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,6 +48,39 @@ void add_quality(const std::vector<const BodyPose*>& poses, Json& json) {
   json["sigma_deg"] = {deg_from_rad(sigma(0)), deg_from_rad(sigma(1)), deg_from_rad(sigma(2))};
 }
 
+/// Targets that poses refused, with how often; those that were knocked; how small a knock would be found.
+void add_shape(const TrackedRun& run, std::size_t body, const std::vector<const BodyPose*>& poses,
+               Json& json) {
+  const std::vector<Target>& targets = run.bodies[body].targets;
+  json["rejected"] = Json::object();
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    const auto times = std::count_if(poses.begin(), poses.end(), [&](const BodyPose* pose) {
+      return std::binary_search(pose->rejected.begin(), pose->rejected.end(), static_cast<int>(t));
+    });
+    if (times > 0) json["rejected"][targets[t].id] = times;
+  }
+  if (body >= run.shapes.size()) return;
+  const ShapeCheck& check = run.shapes[body];
+  json["knocked"] = Json::array();
+  for (const KnockedTarget& knocked : check.knocked) {
+    const Vec3 sigma = knocked.covariance.diagonal().cwiseSqrt();
+    Json rivals = Json::array();
+    for (const int rival : knocked.rivals) rivals.push_back(targets[static_cast<std::size_t>(rival)].id);
+    json["knocked"].push_back(
+        {{"target", targets[static_cast<std::size_t>(knocked.target)].id},
+         {"shift_mm", {knocked.shift_mm.x(), knocked.shift_mm.y(), knocked.shift_mm.z()}},
+         {"sigma_mm", {sigma.x(), sigma.y(), sigma.z()}},
+         {"rivals", rivals},
+         {"seen", knocked.seen},
+         {"excluded", knocked.excluded}});
+  }
+  Json detectable = Json::object();
+  for (std::size_t t = 0; t < check.detectable_mm.size(); ++t) {
+    if (std::isfinite(check.detectable_mm[t])) detectable[targets[t].id] = check.detectable_mm[t];
+  }
+  json["detectable_knock_mm"] = detectable;
+}
+
 Json body_summary(const TrackedRun& run, std::size_t body) {
   std::vector<const BodyPose*> measured, filtered;
   for (const TrackedFrame& frame : run.frames) {
@@ -56,10 +91,26 @@ Json body_summary(const TrackedRun& run, std::size_t body) {
                {"status", counts_of(measured)},
                {"status_filtered", counts_of(filtered)}};
   add_quality(measured, json);
+  add_shape(run, body, measured, json);
   return json;
 }
 
+std::string triple(const Vec3& v) { return fmt::format("({:.3f}, {:.3f}, {:.3f})", v.x(), v.y(), v.z()); }
+
 }  // namespace
+
+std::string words_of(const KnockedTarget& knocked, const Body& body) {
+  const auto id = [&](int target) { return body.targets[static_cast<std::size_t>(target)].id; };
+  std::string which = fmt::format("target `{}`", id(knocked.target));
+  for (const int rival : knocked.rivals) which += fmt::format(" or `{}`", id(rival));
+  const double share = 100.0 * static_cast<double>(knocked.excluded) /
+                       static_cast<double>(std::max<std::size_t>(1, knocked.seen));
+  return fmt::format(
+      "{} of body `{}` has moved by {:.2f} mm: {} ± {} mm, left out in {:.0f} % of {} frames; put it back or "
+      "learn the body anew",
+      which, body.name, knocked.shift_mm.norm(), triple(knocked.shift_mm),
+      triple(knocked.covariance.diagonal().cwiseSqrt()), std::min(100.0, share), knocked.seen);
+}
 
 Json summary_of(const TrackedRun& run, const TrackerOptions& options) {
   std::size_t centres = 0;
