@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "asterism/core/result.hpp"
 #include "asterism/visibility/availability.hpp"
@@ -15,6 +16,7 @@ using Q = LayoutQuantity;
 
 // A layout none of whose poses is determined misses as much as ten targets that are not seen.
 constexpr double kAllUndetermined = 10;
+constexpr double kPower = 8;
 
 TargetMask bit(std::size_t target) { return TargetMask{1} << target; }
 
@@ -64,16 +66,74 @@ std::optional<Mat3> usual_covariance(const std::vector<Target>& targets) {
   return Mat3(Mat3::Identity() * (variance / known));
 }
 
+/// Adds powers over the ways to lose so many of the targets from `first` on; the worst error of each.
+void add_losses(std::vector<Target>& left, MotionVisibility& seen, std::size_t first, std::size_t losses,
+                const SeenMotion& motion, const LayoutModel& model, double& sum, bool& determined) {
+  if (losses == 0) {
+    AccuracyOptions accuracy = model.options.accuracy;
+    accuracy.losses = 0;
+    const MotionAccuracy known = predict_accuracy(left, motion, seen, model.points, accuracy);
+    const ErrorOverMotion& error = known.nominal();
+    determined = determined && error.undetermined == 0 && error.worst;
+    if (determined) sum += std::pow(error.worst->mm, kPower);
+    return;
+  }
+  for (std::size_t i = first; i < left.size() && determined; ++i) {
+    MotionVisibility without = seen;
+    for (auto& pose : without.seen) {
+      for (TargetMask& side : pose) side &= ~bit(i);
+    }
+    add_losses(left, without, i + 1, losses - 1, motion, model, sum, determined);
+  }
+}
+
 }  // namespace
 
-ChangeBench::ChangeBench(const LayoutModel& model, const ObservedSights& observed, LayoutQuantity objective)
-    : model_(model), observed_(observed), objective_(objective) {
-  require(observed.unhidden.poses() == 0 || observed.unhidden.poses() == model.motion.poses(),
+std::optional<double> error_over_losses(std::span<const Target> targets, const SeenMotion& motion,
+                                        const MotionVisibility& seen, const LayoutModel& model,
+                                        std::size_t losses) {
+  std::vector<Target> all(targets.begin(), targets.end());
+  MotionVisibility left = seen;
+  double sum = 0;
+  bool determined = true;
+  add_losses(all, left, 0, losses, motion, model, sum, determined);
+  return determined ? std::optional(std::pow(sum, 1 / kPower)) : std::nullopt;
+}
+
+ChangeBench::ChangeBench(const LayoutModel& model, ObservedSights observed, LayoutQuantity objective,
+                         Foresight foresight)
+    : model_(model),
+      present_(model.present),
+      observed_(std::move(observed)),
+      objective_(objective),
+      foresight_(foresight) {
+  require(observed_.unhidden.poses() == 0 || observed_.unhidden.poses() == model.motion.poses(),
           "what was observed is of the model's poses");
   wanted_[static_cast<std::size_t>(objective)] = true;
   for (const LayoutConstraint& constraint : model.constraints) {
     wanted_[static_cast<std::size_t>(constraint.quantity)] = true;
   }
+}
+
+ChangeBench ChangeBench::after(const LayoutChange& change) const {
+  require(change.kind != ChangeKind::Relearn, "a target learnt anew is another file, not another layout");
+  ChangeBench next = *this;
+  next.foresight_ = Foresight::None;
+  next.present_ = change.targets;
+  for (auto& pose : next.observed_.unhidden.seen) {
+    for (TargetMask& side : pose) side = after_change(side, 0, change.kind, change.target);
+  }
+  next.observed_.unsound = after_change(observed_.unsound, 0, change.kind, change.target);
+  if (change.kind == ChangeKind::Move || change.kind == ChangeKind::Add)
+    next.observed_.unsound &= ~bit(change.target);  // what is in a new place is learnt there
+  next.observed_.found.clear();
+  return next;
+}
+
+bool ChangeBench::prefers(const LayoutStanding& a, const LayoutStanding& b) const {
+  constexpr double kSame = 1e-9;  // by rounding alone
+  if (foresight_ == Foresight::None || std::abs(a.violation - b.violation) > kSame) return better(a, b);
+  return a.all_losses_mm.value_or(HUGE_VAL) < b.all_losses_mm.value_or(HUGE_VAL);
 }
 
 std::size_t ChangeBench::losses() const {
@@ -116,8 +176,7 @@ LayoutStanding ChangeBench::standing_of(std::span<const Target> targets, const M
   standing.visible = fewest_visible(values.visibility);
   const ErrorOverMotion& after = values.accuracy.after[losses()];
   standing.undetermined = after.undetermined;
-  const ErrorOverMotion& whole = values.accuracy.nominal();
-  if (whole.undetermined == 0 && whole.worst) standing.whole_mm = whole.worst->mm;
+  standing.all_losses_mm = error_over_losses(targets, model_.motion, values.visibility, model_, losses());
   standing.worst = after.worst;
   standing.violation = undetermined_violation(after.undetermined) + missing_visible(values.visibility);
   for (const LayoutConstraint& constraint : model_.constraints) {

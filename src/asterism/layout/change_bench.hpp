@@ -9,13 +9,21 @@
 
 namespace asterism {
 
+/// By what changes are compared: by better(), or, with another change to follow, by what all losses together
+/// do: where the loss of another target is the worst, that one may be moved after.
+enum class Foresight { None, OneMore };
+
 /// A model with what was observed, ready to be asked about many changes of its present layout.
 class ChangeBench {
  public:
-  ChangeBench(const LayoutModel& model, const ObservedSights& observed, LayoutQuantity objective);
+  ChangeBench(const LayoutModel& model, ObservedSights observed, LayoutQuantity objective,
+              Foresight foresight = Foresight::None);
 
   [[nodiscard]] const LayoutModel& model() const { return model_; }
-  [[nodiscard]] const std::vector<Target>& present() const { return model_.present; }
+  [[nodiscard]] const std::vector<Target>& present() const { return present_; }
+  /// The same with a change made.
+  [[nodiscard]] ChangeBench after(const LayoutChange& change) const;
+  [[nodiscard]] bool prefers(const LayoutStanding& a, const LayoutStanding& b) const;
   [[nodiscard]] std::size_t losses() const;
 
   /// The layout as it stands. For reports: the margin beyond its bound too.
@@ -39,9 +47,17 @@ class ChangeBench {
                                            double cap_mm) const;
 
   const LayoutModel& model_;
-  const ObservedSights& observed_;
+  std::vector<Target> present_;
+  ObservedSights observed_;
   LayoutQuantity objective_;
+  Foresight foresight_;
   QuantitySet wanted_{};
 };
+
+/// (Σ E⁸)^(1/8) over the ways to lose so many targets, E being the worst error of each over poses and points.
+/// None when one of them leaves a pose undetermined.
+[[nodiscard]] std::optional<double> error_over_losses(std::span<const Target> targets,
+                                                      const SeenMotion& motion, const MotionVisibility& seen,
+                                                      const LayoutModel& model, std::size_t losses);
 
 }  // namespace asterism

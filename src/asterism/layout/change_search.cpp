@@ -22,12 +22,6 @@ constexpr int kMostSteps = 100;           // of the fine search
 constexpr double kRounding = 1e-9;        // a bound and an error are summed in different orders
 constexpr double kNoErrorMm = std::numeric_limits<double>::infinity();
 
-/// What a change comes to at best: a standing that none of its kind betters.
-struct Bound {
-  LayoutStanding at_best;
-  [[nodiscard]] bool cannot_beat(const LayoutStanding& found) const { return !better(at_best, found); }
-};
-
 /// A hair below: a bound and an error are summed in different orders.
 std::optional<double> just_below(const ErrorOverMotion& error) {
   if (error.undetermined > 0 || !error.worst) return std::nullopt;
@@ -111,10 +105,10 @@ Screen screen_for(const ChangeBench& bench, std::size_t target) {
   return screen;
 }
 
-/// What the change is worth at best: all targets as each is seen by itself, over the screen's poses; the
-/// visible count over all.
-Bound bound_of(const ChangeBench& bench, const Screen& screen, const Target& placed,
-               const MotionVisibility& place_seen) {
+/// A standing that the change does not better, for a bound: all targets as each is seen by itself, over the
+/// screen's poses; the visible count over all.
+LayoutStanding bound_of(const ChangeBench& bench, const Screen& screen, const Target& placed,
+                        const MotionVisibility& place_seen) {
   const std::size_t last = screen.targets.size() - 1;
   MotionVisibility seen = screen.seen;
   for (std::size_t pose = 0; pose < seen.poses(); ++pose) {
@@ -127,12 +121,13 @@ Bound bound_of(const ChangeBench& bench, const Screen& screen, const Target& pla
   AccuracyOptions accuracy = bench.model().options.accuracy;
   accuracy.losses = static_cast<int>(bench.losses());
   const MotionAccuracy known = predict_accuracy(targets, screen.motion, few, bench.model().points, accuracy);
-  Bound bound;
-  bound.at_best.violation =
+  LayoutStanding at_best;
+  at_best.violation =
       bench.missing_visible(seen) + bench.undetermined_violation(known.after_losses().undetermined);
-  bound.at_best.error_mm = just_below(known.after_losses());
-  bound.at_best.whole_mm = just_below(known.nominal());
-  return bound;
+  at_best.error_mm = just_below(known.after_losses());
+  const auto over = error_over_losses(targets, screen.motion, few, bench.model(), bench.losses());
+  if (over) at_best.all_losses_mm = *over * (1 - kRounding);
+  return at_best;
 }
 
 bool apart(const LayoutChange& change, const std::vector<LayoutChange>& others, double spacing_mm) {
@@ -142,13 +137,14 @@ bool apart(const LayoutChange& change, const std::vector<LayoutChange>& others, 
 }
 
 /// The best, a spacing apart from one another.
-std::vector<LayoutChange> distinct(std::vector<LayoutChange> changes, std::size_t most, double spacing_mm) {
+std::vector<LayoutChange> distinct(const ChangeBench& bench, std::vector<LayoutChange> changes,
+                                   std::size_t most) {
   std::stable_sort(changes.begin(), changes.end(),
-                   [](const auto& a, const auto& b) { return better(a.after, b.after); });
+                   [&](const auto& a, const auto& b) { return bench.prefers(a.after, b.after); });
   std::vector<LayoutChange> kept;
   for (LayoutChange& change : changes) {
     if (kept.size() == most) break;
-    if (apart(change, kept, spacing_mm)) kept.push_back(std::move(change));
+    if (apart(change, kept, bench.model().rules.spacing_mm)) kept.push_back(std::move(change));
   }
   return kept;
 }
@@ -221,16 +217,15 @@ ChangesFound best_places(const ChangeBench& bench, ChangeKind kind, std::size_t 
   found.screened = open.size();
   if (open.empty()) return found;
   const Screen screen = screen_for(bench, except);
-  std::vector<Bound> bounds(open.size());
+  std::vector<LayoutStanding> bounds(open.size());
   parallel_for(open.size(), [&](std::size_t i) {
     const WatchedPlace& place = places[open[i]];
     bounds[i] = bound_of(bench, screen, bench.placed(target, place.place), place.seen);
   });
   std::vector<std::size_t> order(open.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return better(bounds[a].at_best, bounds[b].at_best);
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return bench.prefers(bounds[a], bounds[b]); });
 
   LayoutChange like;
   like.kind = kind;
@@ -238,7 +233,7 @@ ChangesFound best_places(const ChangeBench& bench, ChangeKind kind, std::size_t 
   std::vector<LayoutChange> all;
   for (std::size_t next = 0; next < order.size();) {
     const bool full = found.best.size() == most;
-    if (full && bounds[order[next]].cannot_beat(found.best.back().after)) break;
+    if (full && !bench.prefers(bounds[order[next]], found.best.back().after)) break;
     if (found.evaluated >= kMostInFull) {
       found.proven = false;
       break;
@@ -249,7 +244,7 @@ ChangesFound best_places(const ChangeBench& bench, ChangeKind kind, std::size_t 
     found.evaluated += batch.size();
     std::vector<LayoutChange> changes = changes_to(bench, like, batch);
     std::move(changes.begin(), changes.end(), std::back_inserter(all));
-    found.best = distinct(all, most, bench.model().rules.spacing_mm);
+    found.best = distinct(bench, all, most);
   }
   return found;
 }
@@ -261,7 +256,7 @@ LayoutChange refined(const ChangeBench& bench, LayoutChange change, double start
         changes_to(bench, change, places_around(bench.model(), *change.place, step, turn));
     LayoutChange* best = &change;
     for (LayoutChange& other : around) {
-      if (better(other.after, best->after)) best = &other;
+      if (bench.prefers(other.after, best->after)) best = &other;
     }
     if (best == &change) {
       step /= 2;

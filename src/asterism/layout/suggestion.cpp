@@ -63,7 +63,8 @@ std::vector<LayoutChange> best_moves(const ChangeBench& bench, const std::vector
         nearest_allowed_place(model.rules.surface, bench.present()[i].position, model.rules.clearance_mm);
     if (own && bench.free(own->position_mm, i)) {
       LayoutChange here = bench.changed(ChangeKind::Move, i, own);
-      if (found[i].best.empty() || better(here.after, found[i].best.front().after)) found[i].best = {here};
+      if (found[i].best.empty() || bench.prefers(here.after, found[i].best.front().after))
+        found[i].best = {here};
     }
     for (LayoutChange& change : found[i].best)
       change = refined(bench, std::move(change), 0.5 * pitch_of(places, model), options.finest_mm);
@@ -108,6 +109,34 @@ std::vector<LayoutChange> each_present(const ChangeBench& bench, ChangeKind kind
   return changes;
 }
 
+/// Two moves that are worth it together, where neither is alone.
+void look_ahead(const ChangeBench& present, const std::vector<WatchedPlace>& places,
+                const SuggestOptions& options, Suggestion& suggestion) {
+  const std::vector<LayoutChange> firsts = best_moves(present, places, options, suggestion);
+  std::vector<std::optional<LayoutChange>> seconds(firsts.size());
+  std::vector<std::size_t> evaluated(firsts.size());
+  parallel_for(firsts.size(), [&](std::size_t i) {
+    const ChangeBench next = present.after(firsts[i]);
+    for (std::size_t target = 0; target < present.present().size(); ++target) {
+      if (target == firsts[i].target) continue;
+      const ChangesFound found = best_places(next, ChangeKind::Move, target, places, 1);
+      evaluated[i] += found.evaluated;
+      if (found.best.empty()) continue;
+      if (!seconds[i] || better(found.best.front().after, seconds[i]->after)) seconds[i] = found.best.front();
+    }
+  });
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < firsts.size(); ++i) {
+    suggestion.evaluated += evaluated[i];
+    if (seconds[i] && (!best || better(seconds[i]->after, seconds[*best]->after))) best = i;
+  }
+  if (!best || !worthwhile(suggestion.present, seconds[*best]->after, 2 * options.least_gain)) return;
+  const ChangeBench next = present.after(firsts[*best]);
+  suggestion.best = firsts[*best];
+  suggestion.then =
+      refined(next, *seconds[*best], 0.5 * pitch_of(places, present.model()), options.finest_mm);
+}
+
 /// What comes first: a measurement again costs least, a target more the most.
 void choose(Suggestion& suggestion, std::size_t targets, double least_gain) {
   const LayoutStanding* standing = &suggestion.present;
@@ -139,77 +168,6 @@ void refuse_what_cannot_be_judged(const LayoutModel& model) {
 
 }  // namespace
 
-void describe(SuggestOptions& options, OptionVisitor& visit) {
-  visit.text("kinds", options.kinds, "what may be done with a target, by commas: move, add, remove");
-  visit.text("objective", options.objective,
-             "what to better: worst-error, worst-error-1-lost or worst-error-2-lost; empty: that after the "
-             "task's losses");
-  visit.text("constraints", options.constraints,
-             "bounds to hold, by commas: \"worst-error <= 0.2, thickness >= 20\"; beside the task's own");
-  visit.integer("places", options.places, {10, 100000}, "of the surface, each tried for each target");
-  visit.integer("alternatives", options.alternatives, {1, 64}, "told of each kind");
-  visit.number("least_gain", options.least_gain, {0, 1},
-               "share by which the error must fall to be worth a change");
-  visit.number("finest_mm", options.finest_mm, {0.01, 100}, "to which the best places are sought");
-  visit.number("placing_mm", options.placing_mm, {0, 1000},
-               "how far beside its place a foot may come to stand");
-  SectionVisitor visibility("visibility", visit);
-  describe(options.visibility, visibility);
-  SectionVisitor accuracy("accuracy", visit);
-  describe(options.accuracy, accuracy);
-}
-
-DesignerOptions designer_options(const SuggestOptions& options) {
-  DesignerOptions designer;
-  designer.constraints = options.constraints;
-  designer.places = options.places;
-  designer.visibility = options.visibility;
-  designer.accuracy = options.accuracy;
-  return designer;
-}
-
-std::string text_of(ChangeKind kind) {
-  switch (kind) {
-    case ChangeKind::Relearn:
-      return "relearn";
-    case ChangeKind::Move:
-      return "move";
-    case ChangeKind::Add:
-      return "add";
-    case ChangeKind::Remove:
-      return "remove";
-  }
-  return "";
-}
-
-std::vector<ChangeKind> kinds_from(const std::string& text) {
-  std::vector<ChangeKind> kinds;
-  std::string word;
-  const auto take = [&] {
-    if (word.empty()) return;
-    const std::vector<ChangeKind> all = {ChangeKind::Move, ChangeKind::Add, ChangeKind::Remove};
-    const auto named =
-        std::find_if(all.begin(), all.end(), [&](ChangeKind kind) { return text_of(kind) == word; });
-    if (named == all.end()) {
-      throw InputError("kinds", fmt::format("`{}` is none of move, add, remove", word));
-    }
-    if (std::find(kinds.begin(), kinds.end(), *named) != kinds.end()) {
-      throw InputError("kinds", fmt::format("`{}` is given twice", word));
-    }
-    kinds.push_back(*named);
-    word.clear();
-  };
-  for (const char letter : text) {
-    if (letter == ',')
-      take();
-    else if (letter != ' ')
-      word += letter;
-  }
-  take();
-  if (kinds.empty()) throw InputError("kinds", "none is named; some of move, add, remove");
-  return kinds;
-}
-
 double step_of_error(const std::optional<double>& mm) {
   return mm ? std::floor(std::log(*mm) / std::log(1.002)) : HUGE_VAL;
 }
@@ -218,7 +176,7 @@ bool better(const LayoutStanding& a, const LayoutStanding& b) {
   if (std::abs(a.violation - b.violation) > kSame) return a.violation < b.violation;
   const double step_a = step_of_error(a.error_mm), step_b = step_of_error(b.error_mm);
   if (step_a != step_b) return step_a < step_b;
-  return a.whole_mm.value_or(HUGE_VAL) < b.whole_mm.value_or(HUGE_VAL);
+  return a.all_losses_mm.value_or(HUGE_VAL) < b.all_losses_mm.value_or(HUGE_VAL);
 }
 
 bool worthwhile(const LayoutStanding& from, const LayoutStanding& to, double least_gain) {
@@ -284,6 +242,10 @@ Suggestion suggest_changes(const LayoutModel& model, const ObservedSights& obser
       (*changes)[i].nearby_mm = worst_nearby(bench, (*changes)[i], options.placing_mm);
   }
   choose(suggestion, targets, options.least_gain);
+  if (!suggestion.best && asked(ChangeKind::Move)) {
+    look_ahead(ChangeBench(model, observed, suggestion.objective, Foresight::OneMore), places, options,
+               suggestion);
+  }
   suggestion.stuck = !suggestion.best && suggestion.present.violation > kSame;
   return suggestion;
 }

@@ -48,18 +48,18 @@ enum class ChangeKind { Relearn, Move, Add, Remove };
 /// How a layout stands in the task: first what is broken, then the error.
 struct LayoutStanding {
   std::optional<double> error_mm;  // the objective; none where a pose is not determined, maybe after losses
-  std::optional<double> whole_mm;  // the same with nothing lost
-  std::size_t undetermined = 0;    // poses that are not, maybe after losses
-  int visible = 0;                 // fewest targets that both cameras see
+  std::optional<double> all_losses_mm;  // (Σ E⁸)^(1/8) over the losses, E being the worst error after each
+  std::size_t undetermined = 0;         // poses that are not, maybe after losses
+  int visible = 0;                      // fewest targets that both cameras see
   std::vector<ConstraintState> constraints;
   double violation = 0;  // all that is broken, each by its scale; 0 = nothing is
   std::optional<WorstError> worst;
 };
 /// Errors within 0.2 % of one another are one; the step of a ladder on which an error stands.
 [[nodiscard]] double step_of_error(const std::optional<double>& mm);
-/// Less broken; or as much and with the smaller error; or, on the same step, with the smaller error when
-/// nothing is lost. Where a target is moved, the loss of itself is often the worst that can happen, and then
-/// all its places are alike in that; the last rule takes the one that helps the next change most.
+/// Less broken; or as much and with the smaller error; or, on the same step, with the smaller error over
+/// all losses together. Where a target is moved, the loss of itself is often the worst that can happen, and
+/// then all its places are alike in that; the last rule takes the one that helps the next change most.
 [[nodiscard]] bool better(const LayoutStanding& a, const LayoutStanding& b);
 /// Better, and by so much that it is worth a hand: something is mended, or the error falls by the share.
 [[nodiscard]] bool worthwhile(const LayoutStanding& from, const LayoutStanding& to, double least_gain);
@@ -86,19 +86,23 @@ struct Suggestion {
   std::vector<LayoutStanding> without;  // each of the present targets: what it is worth
   std::vector<LayoutChange> relearnings, moves, additions, removals;
   std::optional<LayoutChange> best;  // what to do next; none: leave it as it is
-  bool stuck = false;                // something is broken and no change mends any of it
-  std::vector<std::string> notes;    // kinds that were not tried, and why
-  std::size_t places = 0;            // tried for each target
-  std::size_t screened = 0;          // changes that a lower bound of their error was taken of
-  std::size_t evaluated = 0;         // changes that were evaluated in full
-  bool proven = true;                // over those places nothing better exists (before the fine search)
+  std::optional<LayoutChange>
+      then;            // where the best alone gains too little: the move that it makes worth while
+  bool stuck = false;  // something is broken and no change mends any of it
+  std::vector<std::string> notes;  // kinds that were not tried, and why
+  std::size_t places = 0;          // tried for each target
+  std::size_t screened = 0;        // changes that a lower bound of their error was taken of
+  std::size_t evaluated = 0;       // changes that were evaluated in full
+  bool proven = true;              // over those places nothing better exists (before the fine search)
 };
 
 /// Every place of the surface for every target, by branch and bound: a change's error over a few hard poses
 /// is a lower bound of its error over all, so that only the promising ones are evaluated in full; the best
-/// then go along the surface to the nearest millimetre. An addition comes first only when it gains more than
-/// a measurement more does by itself (1 − √(n/(n+1))) beyond what a move gains.
-/// Throws MeasurementError when the body has fewer than three targets or the surface no free place.
+/// then go along the surface to the nearest millimetre. Where no change is worth it, two moves together are
+/// asked: of each target the move that helps most against all losses together, then the best of another. An
+/// addition comes first only when it gains more than a measurement more does by itself (1 − √(n/(n+1)))
+/// beyond what a move gains. Throws MeasurementError when the body has fewer than three targets or the
+/// surface no free place.
 [[nodiscard]] Suggestion suggest_changes(const LayoutModel& model, const ObservedSights& observed,
                                          const SuggestOptions& options);
 

@@ -64,7 +64,13 @@ std::string constraints_changed(const LayoutStanding& from, const LayoutStanding
 
 std::string verdict_of(const SuggestedChange& suggested, const SuggestOptions& options) {
   const Suggestion& suggestion = suggested.suggestion;
-  if (suggestion.best) return in_words(*suggestion.best, suggestion, *suggested.cell.layout);
+  const LayoutTask& task = *suggested.cell.layout;
+  if (suggestion.then) {
+    return fmt::format("No single change gains more than {:.0f} %, but two moves together do. {}. Then {}",
+                       100 * options.least_gain, in_words(*suggestion.best, suggestion, task),
+                       in_words(*suggestion.then, suggestion, task));
+  }
+  if (suggestion.best) return in_words(*suggestion.best, suggestion, task);
   if (suggestion.stuck) {
     return fmt::format(
         "No single change mends what is broken ({}); `asterism layout optimize` searches for whole layouts",
@@ -77,7 +83,7 @@ Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 Json json_of(const LayoutStanding& standing) {
   Json json = {{"error_mm", standing.error_mm ? Json(*standing.error_mm) : Json(nullptr)},
-               {"whole_mm", standing.whole_mm ? Json(*standing.whole_mm) : Json(nullptr)},
+               {"all_losses_mm", standing.all_losses_mm ? Json(*standing.all_losses_mm) : Json(nullptr)},
                {"undetermined_poses", standing.undetermined},
                {"visible", standing.visible},
                {"breaks", broken_constraints(standing.constraints)},
@@ -175,6 +181,7 @@ Json json_of(const SuggestedChange& suggested, const SuggestOptions& options) {
                {"present", json_of(suggestion.present)},
                {"best", suggestion.best ? json_of(*suggestion.best, suggestion, task) : Json(nullptr)}};
   for (const PresentTarget& target : suggested.targets) json["targets"].push_back(json_of(target));
+  json["then"] = suggestion.then ? json_of(*suggestion.then, suggestion, task) : Json(nullptr);
   const auto list = [&](const std::string& name, const std::vector<LayoutChange>& changes) {
     json[name] = Json::array();
     for (const LayoutChange& change : changes) json[name].push_back(json_of(change, suggestion, task));
