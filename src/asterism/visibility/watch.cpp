@@ -2,6 +2,7 @@
 #include "asterism/visibility/watch.hpp"
 
 #include <bit>
+#include <utility>
 #include <variant>
 
 #include "asterism/core/parallel.hpp"
@@ -123,16 +124,17 @@ AttitudeMap attitude_map(const Cell& cell, std::size_t mover, double reach_deg, 
     }
   }
   const std::vector<Target>& targets = cell.movers[mover].body.targets;
-  const MotionVisibility seen = occlusion.unhidden_of(
-      visible_targets(targets, of_body, cell.rig, cell.volume, visibility), targets, mover, poses);
+  map.seen = occlusion.unhidden_of(visible_targets(targets, of_body, cell.rig, cell.volume, visibility),
+                                   targets, mover, poses);
   for (std::size_t row = 0; row < map.pitch_deg.size(); ++row) {
     auto& masks = map.seen_by_both.emplace_back();
     auto& counts = map.visible.emplace_back();
     for (std::size_t column = 0; column < map.roll_deg.size(); ++column) {
-      masks.push_back(seen.both(row * map.roll_deg.size() + column));
+      masks.push_back(map.seen.both(row * map.roll_deg.size() + column));
       counts.push_back(std::popcount(masks.back()));
     }
   }
+  map.tracker_from_body = std::move(of_body);
   return map;
 }
 

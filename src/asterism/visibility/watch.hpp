@@ -53,6 +53,8 @@ struct AttitudeMap {
   std::vector<double> roll_deg, pitch_deg;
   std::vector<std::vector<int>> visible;  // [pitch][roll]: targets both cameras see
   std::vector<std::vector<TargetMask>> seen_by_both;
+  std::vector<RigidMotion> tracker_from_body;  // row by row: pitch by pitch, roll by roll
+  MotionVisibility seen;                       // of the same poses
 };
 [[nodiscard]] AttitudeMap attitude_map(const Cell& cell, std::size_t mover, double reach_deg, int steps,
                                        const VisibilityOptions& visibility, const Occlusion& occlusion);

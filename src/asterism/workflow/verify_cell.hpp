@@ -101,6 +101,11 @@ struct VerifiedCell {
 [[nodiscard]] CellReport report_of(const Cell& cell, const VerifiedCell& verified,
                                    const VerifyOptions& options);
 
+/// Over roll × pitch from rest, as far as the platform's stroke: targets seen, and predicted error at the
+/// worst point.
+[[nodiscard]] std::vector<CellReport::Heat> attitude_heats(const Cell& cell, const VerifiedCell& verified,
+                                                           const VerifyOptions& options);
+
 /// What summary.json holds; docs/formats.md tells the keys.
 [[nodiscard]] nlohmann::ordered_json summary_of(const VerifiedCell& verified, const VerifyOptions& options);
 

@@ -197,6 +197,7 @@ CellReport report_of(const Cell& cell, const VerifiedCell& verified, const Verif
   }
   report.tolerance_mm = verified.tolerance_mm;
   report.nominal_mm = verified.nominal_mm;
+  report.heats = attitude_heats(cell, verified, options);
   report.tables = tables_of(verified);
   report.charts = charts_of(verified);
   if (verified.fusion) report.charts.push_back(chart_of(*verified.fusion));
