@@ -122,7 +122,7 @@ void verify(const Cell& cell, const DemoJob& job, const Progress& progress, Demo
     verification.options.repeats = 2;
     verification.options.runs = 200;
     verification.options.budget_blocks = 2;
-    verification.options.faults = verification.options.fusion = false;
+    verification.options.faults = verification.options.fusion = verification.options.speed = false;
   }
   result.verdict = verify_cell(cell, verification, progress).verdict;
   result.report = job.out / "report.html";

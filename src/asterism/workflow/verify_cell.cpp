@@ -171,6 +171,19 @@ void read_out(const Cell& cell, const VerifyJob& job, VerifiedCell& verified) {
   verified.read_out = read_out_errors(cell, points, job.seed);
 }
 
+/// How fast it may turn, by exposure and frame rate.
+void hurry(const Cell& cell, const VerifyJob& job, const Progress& progress, VerifiedCell& verified) {
+  if (!job.options.speed) return;
+  SpeedTradeOptions options;
+  options.seed = job.seed;
+  options.image_frames = 0;
+  try {
+    verified.speed = speed_trade_of(cell, options, job.options.tracker, progress);
+  } catch (const InputError& error) {
+    verified.remarks.push_back(fmt::format("no trade of speed and exposure: {}", error.what()));
+  }
+}
+
 /// What is asked when something goes wrong.
 void upset(const Cell& cell, const VerifyJob& job, const Progress& progress, VerifiedCell& verified) {
   if (job.options.faults) {
@@ -231,6 +244,7 @@ void describe(VerifyOptions& options, OptionVisitor& visit) {
                 "of 10000 draws that check the error budget");
   visit.flag("faults", options.faults, "see what becomes of the pose under faults");
   visit.flag("fusion", options.fusion, "see what the platform's read-out gains while both cameras are blind");
+  visit.flag("speed", options.speed, "see error over turning rate, exposure and frame rate");
   const auto section = [&](std::string_view name, auto& part) {
     SectionVisitor visitor(name, visit);
     describe(part, visitor);
@@ -271,6 +285,8 @@ VerifiedCell verify_cell(const Cell& cell, const VerifyJob& job, const Progress&
   watch_time.lap("error map");
   upset(cell, job, progress, verified);
   watch_time.lap("faults and fusion");
+  hurry(cell, job, progress, verified);
+  watch_time.lap("speed");
   if (!job.out.empty()) write(cell, job, verified);
   return verified;
 }

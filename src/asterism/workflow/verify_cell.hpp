@@ -18,6 +18,7 @@
 #include "asterism/evaluation/layout_comparison.hpp"
 #include "asterism/evaluation/read_out_errors.hpp"
 #include "asterism/evaluation/robustness.hpp"
+#include "asterism/evaluation/speed_trade.hpp"
 #include "asterism/report/cell_report.hpp"
 #include "asterism/visibility/availability.hpp"
 #include "asterism/visibility/watch.hpp"
@@ -33,6 +34,7 @@ struct VerifyOptions {
   int budget_blocks = 2;  // of 10⁴ draws that check the error budget
   bool faults = true;     // what becomes of the pose under faults: lost, knocked, hidden targets
   bool fusion = true;     // what the platform's own read-out gains while both cameras are blind
+  bool speed = true;      // error over turning rate, exposure and frame rate
   RobustnessOptions robustness;
   VisibilityOptions visibility;
   OcclusionOptions occlusion;
@@ -81,6 +83,7 @@ struct VerifiedCell {
 
   std::optional<RobustnessTable> robustness;
   std::optional<FusionStudy> fusion;
+  std::optional<SpeedTrade> speed;
   std::vector<std::string> remarks;                     // what was left out and why
   std::vector<std::pair<std::string, double>> seconds;  // where the time went
 };
@@ -93,11 +96,8 @@ struct VerifiedCell {
 /// Targets of the body that both cameras see in a frame.
 [[nodiscard]] int visible_at(const VerifiedCell& verified, std::size_t frame);
 
-/// The tables of a verification, one after the other, and of parts of it.
+/// The tables of a verification, one after the other.
 [[nodiscard]] std::vector<ReportTable> tables_of(const VerifiedCell& verified);
-[[nodiscard]] ReportTable table_of(const RobustnessTable& robustness);
-[[nodiscard]] ReportTable table_of(const FusionStudy& fusion);
-[[nodiscard]] ReportChart chart_of(const FusionStudy& fusion);
 [[nodiscard]] CellReport report_of(const Cell& cell, const VerifiedCell& verified,
                                    const VerifyOptions& options);
 

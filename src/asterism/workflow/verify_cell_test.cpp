@@ -30,7 +30,7 @@ VerifyJob quick_job() {
   job.options.runs = 60;
   job.options.moments = 2;
   job.options.budget_blocks = 2;
-  job.options.faults = job.options.fusion = false;
+  job.options.faults = job.options.fusion = job.options.speed = false;
   return job;
 }
 

@@ -9,6 +9,8 @@
 #include "asterism/cell/frame_chain.hpp"
 #include "asterism/cell/occluders.hpp"
 #include "asterism/io/options_file.hpp"
+#include "asterism/workflow/fusion_tables.hpp"
+#include "asterism/workflow/robustness_tables.hpp"
 #include "asterism/workflow/verify_cell.hpp"
 
 namespace asterism {
@@ -200,7 +202,11 @@ CellReport report_of(const Cell& cell, const VerifiedCell& verified, const Verif
   report.heats = attitude_heats(cell, verified, options);
   report.tables = tables_of(verified);
   report.charts = charts_of(verified);
-  if (verified.fusion) report.charts.push_back(chart_of(*verified.fusion));
+  const auto add = [&](std::vector<ReportChart> charts) {
+    for (ReportChart& chart : charts) report.charts.push_back(std::move(chart));
+  };
+  if (verified.fusion) add(fusion_charts(*verified.fusion, verified.tolerance_mm));
+  if (verified.speed) add(speed_trade_charts(*verified.speed, verified.tolerance_mm));
   VerifyOptions shown = options;
   report.options_json = json_of_options(describing(shown)).dump();
   return report;

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "asterism/evaluation/pose_errors.hpp"
+#include "asterism/workflow/fusion_tables.hpp"
+#include "asterism/workflow/robustness_tables.hpp"
 #include "asterism/workflow/verify_cell.hpp"
 
 namespace asterism {
@@ -214,8 +216,17 @@ std::vector<ReportTable> tables_of(const VerifiedCell& verified) {
     tables.push_back(sample_table(comparison));
     if (!comparison.pairs.empty()) tables.push_back(pair_table(comparison));
   }
-  if (verified.robustness) tables.push_back(table_of(*verified.robustness));
-  if (verified.fusion) tables.push_back(table_of(*verified.fusion));
+  if (verified.robustness) {
+    tables.push_back(robustness_table(*verified.robustness));
+    tables.push_back(knock_table(*verified.robustness));
+  }
+  if (verified.fusion) {
+    for (ReportTable& table : fusion_tables(*verified.fusion)) tables.push_back(std::move(table));
+  }
+  if (verified.speed) {
+    tables.push_back(speed_trade_table(*verified.speed));
+    if (!verified.speed->checks.empty()) tables.push_back(streak_table(*verified.speed));
+  }
   return tables;
 }
 
