@@ -72,7 +72,7 @@ std::string text_of(const VerifiedCell& verified, const VerifyJob& job) {
 }
 
 void run(const Call& call, const VerifyOptions& options, const Common& common) {
-  Cell cell = cell_of(call.cell);
+  Cell cell = cell_for(call.cell);
   if (call.tolerance_mm) cell.verification.tolerance_mm = *call.tolerance_mm;
   VerifyJob job = call.job;
   job.options = options;
