@@ -134,17 +134,23 @@ void simulate(const Cell& cell, const VerifyJob& job, const Progress& progress, 
   verified.noise_agreement = compare_roads(verified.noise_only, exact, visibility);
   verified.agreement = compare_roads(verified.predicted, disturbed, visibility);
   verified.poses = disturbed.front();
+  verified.simulated.resize(verified.body.points.size());
   const std::size_t first = verified.body.has_named() ? VerifiedBody::kFirstNamed : 0;
   for (const auto& repeat : disturbed) {
     const auto counts = status_counts(repeat);
     for (std::size_t i = 0; i < counts.size(); ++i) verified.status[i] += counts[i];
     for (const SimulatedPose& pose : repeat) {
-      for (std::size_t i = first; pose.error && i < verified.body.points.size(); ++i) {
-        verified.verdict.largest_mm =
-            std::max(verified.verdict.largest_mm, error_at(pose, verified.body.points[i].in_body_mm).norm());
+      for (std::size_t i = 0; pose.error && i < verified.body.points.size(); ++i) {
+        const double error_mm = error_at(pose, verified.body.points[i].in_body_mm).norm();
+        VerifiedCell::Simulated& at = verified.simulated[i];
+        at.square_mm2 += error_mm * error_mm;
+        at.largest_mm = std::max(at.largest_mm, error_mm);
+        ++at.poses;
       }
     }
   }
+  for (std::size_t i = first; i < verified.simulated.size(); ++i)
+    verified.verdict.largest_mm = std::max(verified.verdict.largest_mm, verified.simulated[i].largest_mm);
 }
 
 void budget(const Cell& cell, const VerifyJob& job, const AccuracyOptions& noise, VerifiedCell& verified) {

@@ -72,6 +72,12 @@ struct VerifiedCell {
   std::vector<SimulatedPose> poses;     // by frame, of the first repeat, all sources
   std::array<std::size_t, 5> status{};  // of all repeats, in the order of PoseStatus
   std::size_t repeats = 0;
+  /// At each point over the poses of all repeats, all sources.
+  struct Simulated {
+    double square_mm2 = 0, largest_mm = 0;
+    std::size_t poses = 0;
+  };
+  std::vector<Simulated> simulated;
   std::optional<ReadOutErrors> read_out;
 
   WorstMoment worst;
