@@ -27,7 +27,7 @@ namespace {
 
 /// Embree's own tree of one surface, asked as its manual shows.
 struct RawEmbree {
-  RTCDevice device = rtcNewDevice("threads=1,set_affinity=0");
+  RTCDevice device = rtcNewDevice("set_affinity=0");
   RTCScene scene = rtcNewScene(device);
 
   explicit RawEmbree(const TriangleMesh& mesh) {

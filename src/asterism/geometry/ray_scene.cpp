@@ -29,9 +29,10 @@ class FlushDenormals {
   unsigned before_;
 };
 
-/// One device for the whole program; trees are built by the thread that asks for them.
+/// One device for the whole program. Its number of threads is left alone: Embree would hold every parallel
+/// loop of the process to it.
 RTCDevice device() {
-  static const RTCDevice the_device = rtcNewDevice("threads=1,set_affinity=0");
+  static const RTCDevice the_device = rtcNewDevice("set_affinity=0");
   require(the_device != nullptr, "Embree makes a device");
   return the_device;
 }

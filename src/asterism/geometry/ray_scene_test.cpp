@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <thread>
 
 #include "asterism/core/parallel.hpp"
 #include "asterism/geometry/rays_for_tests.hpp"
@@ -195,6 +197,24 @@ TEST(BlockedExactly, HoldsTheEdgesToTheLastDigits) {
   EXPECT_TRUE(blocked_exactly(mesh, {0, 1, 0}, {0, 1, 100.000001}));
   EXPECT_FALSE(blocked_exactly(mesh, {0, 1, 0}, {0, 1, 99.999999}));
   EXPECT_FALSE(blocked_exactly(mesh, {-100, 1, 100}, {100, 1, 100}));  // within the plane: no crossing
+}
+
+TEST(RayScene, LeavesParallelLoopsTheirThreads) {
+  const auto most_at_once = [] {
+    std::atomic<int> now{0}, most{0};
+    parallel_for(64, [&](std::size_t) {
+      const int running = ++now;
+      for (int seen = most; running > seen && !most.compare_exchange_weak(seen, running);) {
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      --now;
+    });
+    return most.load();
+  };
+  const int before = most_at_once();
+  const RayScene scene(surface_of_revolution({{1, 0}, {1, 1}}, 12));
+  EXPECT_FALSE(scene.empty());
+  EXPECT_EQ(most_at_once() > 1, before > 1);
 }
 
 }  // namespace
