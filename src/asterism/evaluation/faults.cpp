@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "asterism/evaluation/faults.hpp"
 
+#include "asterism/evaluation/verified_body.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -184,12 +186,7 @@ void describe(RobustnessOptions& options, OptionVisitor& visit) {
   visit.number("wrong_deg", options.wrong_deg, {0, 180}, "a pose farther off in rotation is wrong");
 }
 
-std::size_t verified_body(const Cell& cell) {
-  std::string name = cell.verification.body;
-  if (name.empty() && cell.platform) name = cell.platform->body;
-  const int found = mover_index(cell, name);
-  return found < 0 ? 0 : static_cast<std::size_t>(found);
-}
+std::size_t verified_body(const Cell& cell) { return verification_of(cell).mover; }
 
 std::vector<Vec3> points_in_question(const Cell& cell) {
   const Body& body = cell.movers[verified_body(cell)].body;

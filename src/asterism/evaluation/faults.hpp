@@ -37,8 +37,8 @@ struct FaultRun {
   Vec3 shift_mm = Vec3::Zero();  // by so much, in the body's frame
 };
 
-/// The body whose pose counts (index into the movers): the one `verification` names, else the platform's,
-/// else the first.
+/// The body whose pose counts (index into the movers), as verification_of(cell) has it. Throws InputError
+/// when it is not there.
 [[nodiscard]] std::size_t verified_body(const Cell& cell);
 
 /// Where errors are told, in the frame of the verified body: the verification's points, else the layout

@@ -14,15 +14,12 @@
 namespace asterism {
 namespace {
 
-/// The paper's schemes lie within the acceptance of both cameras at rest.
-constexpr double kAcceptanceDeg = 65;
-
 PoseExperiment experiment_of(const PublishedLayout& layout) {
   Cell cell = chain_cell(chain_targets(layout.targets));
   cell.noise = {};
   const VerifiedBody body = verification_of(cell);
   TrialView view;
-  view.visibility.max_incidence_deg = kAcceptanceDeg;
+  view.visibility.max_incidence_deg = kChainAcceptanceDeg;
   view.noise.sigma_px = kChainSigmaPx;
   return trial_of(cell, body, layout.name, cell.movers.front().body.targets, Occlusion(cell), view).at_rest;
 }

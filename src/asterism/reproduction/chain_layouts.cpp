@@ -17,7 +17,6 @@
 namespace asterism {
 namespace {
 
-constexpr double kAcceptanceDeg = 65;
 constexpr int kPoses = 61;  // one each 0.2 s
 
 struct Named {
@@ -59,7 +58,7 @@ DesignerOptions designer_options(std::uint64_t seed) {
   DesignerOptions options;
   options.objectives = "worst-error-1-lost";
   options.published_seeds = false;
-  options.visibility.max_incidence_deg = kAcceptanceDeg;
+  options.visibility.max_incidence_deg = kChainAcceptanceDeg;
   options.accuracy.sigma_px = kChainSigmaPx;
   options.optimizer.population = 60;
   options.optimizer.generations = 60;
@@ -102,7 +101,7 @@ LayoutAfterLoss after_loss(const Cell& cell, const Named& layout, std::uint64_t 
   TrialView view;
   const std::vector<double> times = {time_s};
   view.times_s = times;
-  view.visibility.max_incidence_deg = kAcceptanceDeg;
+  view.visibility.max_incidence_deg = kChainAcceptanceDeg;
   view.noise.sigma_px = kChainSigmaPx;
   const LayoutTrial trial =
       trial_of(cell, verification_of(cell), layout.name, layout.targets, Occlusion(cell), view);
@@ -137,7 +136,7 @@ ChainLayouts compare_on_chain(std::uint64_t seed) {
   for (int i = 0; i < kPoses; i += 2) times_s.push_back(0.2 * i);
   TrialView view;
   view.times_s = times_s;
-  view.visibility.max_incidence_deg = kAcceptanceDeg;
+  view.visibility.max_incidence_deg = kChainAcceptanceDeg;
   view.noise.sigma_px = kChainSigmaPx;
   std::vector<LayoutTrial> trials;
   for (const Named& layout : layouts)

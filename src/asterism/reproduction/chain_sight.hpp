@@ -13,7 +13,6 @@ namespace asterism {
 /// the one eye of watch_ring().
 [[nodiscard]] std::vector<SightOfRing> watch_chain(const TrackerPlace& place, const RingOfTargets& ring);
 
-/// Acceptance at which both cameras see four to eight.
-constexpr double kChainAcceptanceRad = rad_from_deg(65);
+constexpr double kChainAcceptanceRad = rad_from_deg(kChainAcceptanceDeg);
 
 }  // namespace asterism
