@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "asterism/measurement/reading.hpp"
-#include "asterism/tracking/pose_curve.hpp"
+#include "asterism/measurement/pose_curve.hpp"
 
 namespace asterism {
 

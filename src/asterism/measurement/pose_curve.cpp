@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "asterism/tracking/pose_curve.hpp"
+#include "asterism/measurement/pose_curve.hpp"
 
 #include <algorithm>
 
