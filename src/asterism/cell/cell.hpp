@@ -12,6 +12,8 @@
 #include "asterism/cell/layout_task.hpp"
 #include "asterism/cell/motion.hpp"
 #include "asterism/cell/platform.hpp"
+#include "asterism/cell/robot.hpp"
+#include "asterism/cell/scan_task.hpp"
 #include "asterism/cell/scanner.hpp"
 #include "asterism/cell/shape.hpp"
 #include "asterism/cell/solid.hpp"
@@ -73,6 +75,9 @@ struct Cell {
   std::optional<Solid> workpiece;  // carried by the platform
   std::vector<Solid> fixtures;     // clamps, the platform's own body, the scanner's housing
   std::optional<Scanner> scanner;
+  std::optional<Robot> robot;    // carries the scanner; none: a hand does, which reaches everywhere
+  ScanTask scan_task;            // what a plan of views is asked for
+  std::vector<ScanPass> passes;  // when the scanner measures
   Sensor sensor;
   Light light;
   Timing timing;

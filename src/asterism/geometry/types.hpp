@@ -9,6 +9,7 @@ namespace asterism {
 
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
+using Vec3f = Eigen::Vector3f;  // where there are millions of them
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat2 = Eigen::Matrix2d;
 using Mat3 = Eigen::Matrix3d;
