@@ -14,14 +14,14 @@ namespace asterism {
 /// Choose columns of least total cost so that every row (or a share of their weight) is covered: views that
 /// see samples. The set covering problem; with a share below 1, its partial form; with demands, multi-cover;
 /// with groups, each column needs its group to be opened, which costs once (facility location): a turn of a
-/// platform.
+/// platform. A row that no column covers, weighs 0 or demands 0 counts nowhere.
 struct SetCoverProblem {
   std::size_t rows = 0;
   std::vector<std::vector<std::uint32_t>> columns;  // the rows each covers, ascending, none twice
   std::vector<double> cost;                         // by column, positive; empty = 1 each
   std::vector<double> weight;                       // by row, not negative; empty = 1 each
   std::vector<int> demand;           // by row: so many columns, but never more than can; empty = 1 each
-  double share = 1;                  // of the weight that all columns together cover
+  double share = 1;                  // of the weight that all columns together cover (to 1e-9 of it)
   std::vector<std::uint32_t> group;  // by column; empty = none
   std::vector<double> group_cost;    // by group; a group that is open already costs 0
 };
