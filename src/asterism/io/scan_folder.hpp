@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,13 +13,13 @@ namespace asterism {
 /// A line of scans.csv: `scan,file,time_s,body`.
 struct ScanEntry {
   int scan = 0;
-  std::string file;  // relative to the folder
-  double time_s = 0;
-  std::string body;
+  std::string file;              // relative to the folder
+  std::optional<double> time_s;  // none: the points tell theirs
+  std::string body = "scanner";
 };
 
-/// The scans of a folder by its scans.csv. Throws InputError, with the line, for a file that is absent or a
-/// number given twice.
+/// The scans of a folder by its scans.csv, of which `scan` and `file` are needed. Throws InputError, with the
+/// line, for a file that is absent or a number given twice.
 [[nodiscard]] std::vector<ScanEntry> read_scan_entries(const std::filesystem::path& folder);
 
 /// A scan and how many of its points were left out since they are not finite.
@@ -26,11 +27,12 @@ struct ReadScan {
   Scan scan;
   std::size_t not_finite = 0;
 };
-/// `scalar_time_s` gives each point its moment; normals are taken where they are there. An empty scan is
-/// allowed.
+/// `scalar_time_s` gives each point its moment; normals are taken where they are there. Points whose place or
+/// moment is not finite are left out. An empty scan is allowed. Throws InputError when neither the file nor
+/// scans.csv tells a time.
 [[nodiscard]] ReadScan read_scan(const std::filesystem::path& folder, const ScanEntry& entry);
 
-/// scans/NNN.ply and a line each in scans.csv, which comes last.
+/// scans/NNN.ply (single precision) and a line each in scans.csv, which comes last.
 void write_scan(const std::filesystem::path& folder, const Scan& scan);
 void write_scan_entries(const std::filesystem::path& folder, const std::vector<ScanEntry>& entries);
 [[nodiscard]] ScanEntry entry_of(const Scan& scan);
