@@ -1,41 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "asterism/geometry/ray_scene.hpp"
 
-#include <embree3/rtcore.h>
-#include <pmmintrin.h>
-#include <xmmintrin.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 
 #include "asterism/core/result.hpp"
+#include "asterism/geometry/embree_scene.hpp"
 
 namespace asterism {
 namespace {
-
-/// Embree asks for flush-to-zero; the caller's own arithmetic gets its mode back.
-class FlushDenormals {
- public:
-  FlushDenormals() : before_(_mm_getcsr()) {
-    _mm_setcsr(before_ | _MM_FLUSH_ZERO_ON | _MM_DENORMALS_ZERO_ON);
-  }
-  ~FlushDenormals() { _mm_setcsr(before_); }
-  FlushDenormals(const FlushDenormals&) = delete;
-  FlushDenormals& operator=(const FlushDenormals&) = delete;
-
- private:
-  unsigned before_;
-};
-
-/// One device for the whole program. Its number of threads is left alone: Embree would hold every parallel
-/// loop of the process to it.
-RTCDevice device() {
-  static const RTCDevice the_device = rtcNewDevice("set_affinity=0");
-  require(the_device != nullptr, "Embree makes a device");
-  return the_device;
-}
 
 /// Embree reads a ray by fours; written one by one it would wait for each of them.
 RTCRay ray_between(const Vec3& from, const Vec3& to) {
@@ -86,31 +61,13 @@ void ask_packet(RTCScene scene, RTCIntersectContext& context, std::span<const Ve
   }
 }
 
-void add_surface(RTCScene scene, const TriangleMesh& mesh) {
-  RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* places = static_cast<float*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertices.size()));
-  for (const Vec3& vertex : mesh.vertices) {
-    for (int axis = 0; axis < 3; ++axis) *places++ = static_cast<float>(vertex(axis));
-  }
-  auto* corners = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), mesh.triangles.size()));
-  for (const auto& triangle : mesh.triangles) {
-    for (const std::uint32_t corner : triangle) *corners++ = corner;
-  }
-  rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
-  rtcReleaseGeometry(geometry);
-}
-
 }  // namespace
 
 struct RayScene::Tree {
   RTCScene scene = nullptr;
   std::vector<std::size_t> surface_of;  // by Embree's number of a geometry
 
-  explicit Tree(std::span<const TriangleMesh> surfaces) : scene(rtcNewScene(device())) {
+  explicit Tree(std::span<const TriangleMesh> surfaces) : scene(rtcNewScene(embree_device())) {
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
     for (std::size_t i = 0; i < surfaces.size(); ++i) {

@@ -23,8 +23,10 @@ struct NearestOnSurface {
 
 /// A surface made ready to be asked how far points lie from it. The sign comes from the angle-weighted
 /// pseudo-normal of the face, edge or vertex that is nearest (Bærentzen & Aanæs, IEEE TVCG 11 (2005) 243):
-/// right at edges too, where that of any one triangle is not. Distances in double precision. Asking is const
-/// and may be done by many threads.
+/// right at edges too, where that of any one triangle is not. Where the surface is open there is no outside;
+/// the sign then says on which side of its nearest feature a point lies. Embree, in single precision, says
+/// which triangles may be the nearest; which one is, and how far, is decided in double precision. Triangles
+/// without area are left out. Asking is const and may be done by many threads.
 class SurfaceTree {
  public:
   explicit SurfaceTree(const TriangleMesh& surface);
