@@ -6,6 +6,19 @@
 #include <vector>
 
 namespace asterism {
+namespace {
+
+template <typename Number>
+std::string as_bytes(std::span<const Number> numbers) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(sizeof(Number) * numbers.size());
+  for (const Number number : numbers)
+    for (unsigned shift = 0; shift < 8 * sizeof(Number); shift += 8)
+      bytes.push_back(static_cast<std::uint8_t>(number >> shift));
+  return base64(bytes);
+}
+
+}  // namespace
 
 std::string base64(std::span<const std::uint8_t> bytes) {
   constexpr char kLetters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -20,13 +33,8 @@ std::string base64(std::span<const std::uint8_t> bytes) {
   return text;
 }
 
-std::string base64(std::span<const std::uint32_t> numbers) {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(4 * numbers.size());
-  for (const std::uint32_t number : numbers)
-    for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::uint8_t>(number >> shift));
-  return base64(bytes);
-}
+std::string base64(std::span<const std::uint16_t> numbers) { return as_bytes(numbers); }
+std::string base64(std::span<const std::uint32_t> numbers) { return as_bytes(numbers); }
 
 std::string base64(std::span<const float> numbers) {
   std::vector<std::uint32_t> words;

@@ -29,6 +29,7 @@ TEST(Base64, UsesAllSixtyFourLetters) {
 
 TEST(Base64, WritesNumbersLowestByteFirst) {
   EXPECT_EQ(base64(std::vector<std::uint32_t>{0x04030201}), "AQIDBA==");
+  EXPECT_EQ(base64(std::vector<std::uint16_t>{0x0201, 0x0403}), "AQIDBA==");
   EXPECT_EQ(base64(std::vector<float>{1.0F}), "AACAPw==");  // 0x3f800000
 }
 
