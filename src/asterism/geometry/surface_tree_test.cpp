@@ -34,7 +34,7 @@ double distance_to_box(const Vec3& point, const Vec3& half) {
   return beyond.cwiseMax(0).norm() + std::min(beyond.maxCoeff(), 0.0);
 }
 
-/// A prism along x whose edge at the origin points up (+z): its sides fall off by `steep` to either hand.
+/// A prism along x whose edge at the origin points up (+z), its sides at half the angle to either hand.
 TriangleMesh wedge(double half_angle_rad) {
   const double wide = 100 * std::tan(half_angle_rad);
   TriangleMesh mesh;
@@ -197,7 +197,7 @@ TEST(SurfaceTree, HasTheSignOfTheWindingNumberAndTheDistanceOfBruteForce) {
     EXPECT_NEAR(signed_distance(tree, point), is_inside ? -distance : distance, kDigits_mm);
     inside += is_inside ? 1 : 0;
   }
-  EXPECT_GT(inside, 100);
+  EXPECT_GT(inside, 50);
 }
 
 TEST(SurfaceTree, FindsInASoupOfTrianglesWhatBruteForceFinds) {
