@@ -12,6 +12,28 @@
 #include "asterism/io/pose_columns.hpp"
 
 namespace asterism {
+namespace {
+
+Mat6 matrix_of(const nlohmann::json& rows) {
+  Mat6 matrix;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = rows.at(i).at(j).get<double>();
+    }
+  }
+  return matrix;
+}
+
+nlohmann::ordered_json rows_of(const Mat6& matrix) {
+  auto rows = nlohmann::ordered_json::array();
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const Vec6 row = matrix.row(i);
+    rows.push_back(std::vector<double>(row.begin(), row.end()));
+  }
+  return rows;
+}
+
+}  // namespace
 
 std::vector<PoseRecord> read_poses(const std::filesystem::path& file) {
   const CsvTable table(file, {"frame", "body", "x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz"});
@@ -53,14 +75,8 @@ void read_pose_covariances(const std::filesystem::path& file, std::vector<PoseRe
       const auto json = nlohmann::json::parse(line);
       const auto found = by_frame.find({json.at("frame").get<int>(), json.at("body").get<std::string>()});
       if (found == by_frame.end() || !json.contains("covariance")) continue;
-      Mat6 covariance;
-      for (std::size_t i = 0; i < 6; ++i) {
-        for (std::size_t j = 0; j < 6; ++j) {
-          covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-              json.at("covariance").at(i).at(j).get<double>();
-        }
-      }
-      found->second->covariance = covariance;
+      found->second->covariance = matrix_of(json.at("covariance"));
+      if (json.contains("systematic")) found->second->systematic = matrix_of(json.at("systematic"));
     } catch (const nlohmann::json::exception&) {
       throw InputError(where, "is no JSON object with frame, body and a 6×6 covariance");
     }
@@ -68,12 +84,17 @@ void read_pose_covariances(const std::filesystem::path& file, std::vector<PoseRe
 }
 
 PoseRecord record_of(int frame, double time_s, const BodyPose& pose, const std::vector<Body>& bodies) {
-  PoseRecord record{frame,        time_s,     bodies.at(static_cast<std::size_t>(pose.body)).name,
-                    pose.status,  {},         {},
-                    pose.targets, pose.rms_px};
+  PoseRecord record;
+  record.frame = frame;
+  record.time_s = time_s;
+  record.body = bodies.at(static_cast<std::size_t>(pose.body)).name;
+  record.status = pose.status;
+  record.targets = pose.targets;
+  record.rms_px = pose.rms_px;
   if (pose.estimate) {
     record.tracker_from_body = pose.estimate->tracker_from_body;
     record.covariance = pose.estimate->covariance;
+    record.systematic = pose.estimate->systematic;
   }
   return record;
 }
@@ -111,11 +132,8 @@ std::string json_line(const PoseRecord& pose) {
     json["quaternion_wxyz"] = {q.w(), q.x(), q.y(), q.z()};
   }
   if (pose.tracker_from_body && pose.covariance) {
-    auto& rows = json["covariance"] = nlohmann::ordered_json::array();
-    for (Eigen::Index i = 0; i < 6; ++i) {
-      const Vec6 row = pose.covariance->row(i);
-      rows.push_back(std::vector<double>(row.begin(), row.end()));
-    }
+    json["covariance"] = rows_of(*pose.covariance);
+    if (pose.systematic) json["systematic"] = rows_of(*pose.systematic);
   }
   return json.dump();
 }

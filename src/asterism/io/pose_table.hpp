@@ -34,7 +34,7 @@ class PoseTable {
   OutputFile file_;
 };
 
-/// One JSON object a line, with the full 6×6 covariance (ω rad, δ mm).
+/// One JSON object a line, with the full 6×6 covariance (ω rad, δ mm) and the systematic share of it.
 [[nodiscard]] std::string json_line(const PoseRecord& pose);
 
 /// TUM trajectory lines "time x y z qx qy qz qw" (seconds, metres) of one body.

@@ -18,6 +18,7 @@ struct PoseRecord {
   std::optional<Mat6> covariance;                // ω (rad), δ (mm); diagonal when only sigmas were given
   int targets = 0;
   double rms_px = 0;
+  std::optional<Mat6> systematic = {};  // the covariance's share that is the same in each frame, where told
 };
 
 }  // namespace asterism

@@ -57,8 +57,41 @@ struct FusedPoint {
 struct FusedCloud {
   std::vector<FusedPoint> points;
   std::size_t points_in = 0, outliers = 0;  // taken in; refused by χ²
+  std::size_t few = 0;                      // points of voxels that had too few
+  // Do scans agree as their covariances say? In voxels that parts of several scans share: the median of
+  // χ² along the normal of one against the others, over what it is to be: 1 when they do.
+  std::size_t shared = 0;
+  double disagreement = 0;
 };
 /// With fields sigma_mm (along the normal), points, scans, scan, incidence_deg, range_mm.
 [[nodiscard]] Cloud cloud_of(const FusedCloud& fused);
+
+/// Takes points scan after scan; what it keeps grows with the voxels, not with the points.
+///
+/// Points of a voxel that face one way (within 45°) become one. Inside a part of a scan they are weighed by
+/// w = 1/(nᵀ C n), C the scanner's covariance, n the normal: along the normal this is the inverse-covariance
+/// mean, and since it only weighs places, the mean of places on a plane lies on it. Its noise is
+/// Σ w² C / (Σ w)² plus that of the scan's pose, which all of its points have in common. The parts are then
+/// weighed by 1/(nᵀ N n); what is systematic never becomes smaller. A part that its voxel's others contradict
+/// (χ² along the normal, one degree) is refused, the worst first, so that who came first does not matter;
+/// where two stand alone against each other the one of fewer points is.
+class CloudFusion {
+ public:
+  explicit CloudFusion(const CloudFusionOptions& options);
+
+  /// Points of a part of a scan: its poses' noise is common to all of them. More points of the same part may
+  /// follow at once; `part` counts the parts of one scan. Throws InputError when the cloud is too wide for
+  /// the voxels (2²⁰ of them to each side).
+  void add(int scan, int part, std::span<const ScannerPose> poses, std::span<const CarriedPoint> points);
+
+  /// All so far. The same for any number of threads.
+  [[nodiscard]] FusedCloud cloud();
+
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+ private:
+  struct State;
+  std::shared_ptr<State> state_;
+};
 
 }  // namespace asterism
