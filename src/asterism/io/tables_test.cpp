@@ -138,6 +138,7 @@ PoseRecord sample_pose() {
   Mat6 covariance = Mat6::Identity() * 1e-4;
   covariance(0, 4) = covariance(4, 0) = 3e-5;
   pose.covariance = covariance;
+  pose.systematic = 0.25 * covariance;
   return pose;
 }
 
@@ -159,6 +160,7 @@ TEST(ReadPoses, WhatIsWrittenComesBackAndAnUntrustedPoseIsNotShown) {
   EXPECT_FALSE(read[1].tracker_from_body);
   read_pose_covariances(folder / "p.json", read);
   EXPECT_EQ(*read[0].covariance, *pose.covariance);
+  EXPECT_EQ(*read[0].systematic, *pose.systematic);
 }
 
 TEST(ReadPoses, TellsWhatIsWrong) {
