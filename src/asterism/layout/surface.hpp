@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "asterism/cell/layout_task.hpp"
+#include "asterism/cell/shape_distance.hpp"
 #include "asterism/core/random.hpp"
 
 namespace asterism {
@@ -23,9 +24,6 @@ struct Place {
 
 /// Two directions along a surface that faces this way, at right angles.
 [[nodiscard]] std::array<Vec3, 2> along_surface(const Vec3& normal);
-
-/// Distance from a solid, mm; negative inside.
-[[nodiscard]] double distance_from(const Shape& shape, const Vec3& in_shape);
 
 /// Is a point inside a keep-out, or nearer to one than `clearance_mm` (half a target)?
 [[nodiscard]] bool kept_out(const DeployableSurface& surface, const Vec3& point, double clearance_mm);

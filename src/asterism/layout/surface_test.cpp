@@ -100,16 +100,6 @@ TEST(NearestAllowedPlace, GoesToTheEdgeOfTheKeepOut) {
   EXPECT_FALSE(nearest_allowed_place(surface, {30, 10, 5}, 6));
 }
 
-TEST(DistanceFrom, IsSignedAndExact) {
-  EXPECT_NEAR(distance_from(Box{{20, 20, 20}}, {13, 14, 0}), 5, 1e-12);
-  EXPECT_NEAR(distance_from(Box{{20, 20, 20}}, {7, 0, 0}), -3, 1e-12);
-  EXPECT_NEAR(distance_from(Capsule{{0, 0, 0}, {0, 0, 100}, 10}, {0, 30, 50}), 20, 1e-12);
-  EXPECT_NEAR(distance_from(Frustum{10, 10, 100}, {3, 4, 50}), -5, 1e-12);
-  EXPECT_NEAR(distance_from(Frustum{10, 10, 100}, {0, 0, 98}), -2, 1e-12);
-  EXPECT_NEAR(distance_from(Frustum{10, 10, 100}, {13, 0, 104}), 5, 1e-12);
-  EXPECT_NEAR(distance_from(Frustum{10, 0, 10}, {10, 0, 10}), 10 / std::sqrt(2.0), 1e-12);
-}
-
 TEST(AreaMm2, IsThatOfEachKind) {
   const double pi = std::numbers::pi;
   EXPECT_NEAR(area_mm2(CylinderSide{Vec3::Zero(), 100, 50}), 2 * pi * 5000, 1e-6);
