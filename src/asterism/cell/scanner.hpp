@@ -27,7 +27,7 @@ struct Scanner {
   double lateral_sigma_mm = 0.012;       // across, at the stand-off; grows as z
   double outlier_share = 0.001;          // of all points,
   double outlier_mm = 8;                 // off along the line of sight by up to so much
-  int lines = 124, points_a_line = 140;  // of one sweep across the field: 2.5 mm apart at the stand-off
+  int lines = 140, points_a_line = 124;  // along y, swept along x: 2.5 mm apart at the stand-off
   double sweep_s = 0.5;                  // from the first line to the last
   double place_sigma_mm = 0.01;          // of body_from_scanner, each axis: what hand–eye calibration left,
   double place_sigma_deg = 0.002;        // about each axis

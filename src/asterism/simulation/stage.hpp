@@ -27,7 +27,7 @@ struct StageFault {
 /// from frame to frame is worked out here. Looking is const and may be done by many threads.
 struct Stage {
   Cell cell;
-  std::vector<StageSolid> solids;      // workpiece and fixtures; simple obstacles are asked exactly
+  std::vector<StageSolid> solids;  // the workpiece first, then fixtures; simple obstacles are asked exactly
   std::vector<DrawnSurface> surfaces;  // of whatever has a level of its own, simple obstacles too
   std::vector<StageFault> faults;
 };

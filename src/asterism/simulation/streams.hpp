@@ -16,7 +16,9 @@ enum class Purpose : std::uint32_t {
   FixedPattern,
   PixelNoise,
   ReadOut,
-  TargetLoss
+  TargetLoss,
+  ScannerPlace,
+  ScanLine
 };
 
 /// The stream of one frame, camera and image row (0 where rows do not matter).
