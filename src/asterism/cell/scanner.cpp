@@ -26,8 +26,10 @@ void describe(Scanner& scanner, OptionVisitor& visit) {
   visit.number("lateral_sigma_mm", scanner.lateral_sigma_mm, kNoise, "noise across, at the best distance");
   visit.number("outlier_share", scanner.outlier_share, {0, 1}, "share of points that are wrong");
   visit.number("outlier_mm", scanner.outlier_mm, kNoise, "by up to so much");
-  visit.integer("lines", scanner.lines, {1, 10000}, "lines of one sweep across the field's width, each along its y");
-  visit.integer("points_a_line", scanner.points_a_line, {1, 10000}, "points of one line, across the field's height");
+  visit.integer("lines", scanner.lines, {1, 10000},
+                "lines of one sweep across the field's width, each along its y");
+  visit.integer("points_a_line", scanner.points_a_line, {1, 10000},
+                "points of one line, across the field's height");
   visit.number("sweep_s", scanner.sweep_s, {0, 1000}, "from the first line of a sweep to its last");
   visit.number("place_sigma_mm", scanner.place_sigma_mm, kNoise, "of its place on its body, each axis");
   visit.number("place_sigma_deg", scanner.place_sigma_deg, {0, 10}, "of its attitude on its body, each axis");
