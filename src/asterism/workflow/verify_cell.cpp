@@ -145,12 +145,16 @@ void simulate(const Cell& cell, const VerifyJob& job, const Progress& progress, 
         VerifiedCell::Simulated& at = verified.simulated[i];
         at.square_mm2 += error_mm * error_mm;
         at.largest_mm = std::max(at.largest_mm, error_mm);
+        at.beyond += error_mm > verified.tolerance_mm;
         ++at.poses;
       }
     }
   }
-  for (std::size_t i = first; i < verified.simulated.size(); ++i)
-    verified.verdict.largest_mm = std::max(verified.verdict.largest_mm, verified.simulated[i].largest_mm);
+  CellVerdict& verdict = verified.verdict;
+  for (std::size_t i = first; i < verified.simulated.size(); ++i) {
+    verdict.largest_mm = std::max(verdict.largest_mm, verified.simulated[i].largest_mm);
+    verdict.beyond = std::max(verdict.beyond, verified.simulated[i].share_beyond());
+  }
 }
 
 void budget(const Cell& cell, const VerifyJob& job, const AccuracyOptions& noise, VerifiedCell& verified) {
@@ -216,13 +220,15 @@ void judge(VerifiedCell& verified) {
   const std::string& point = verified.body.points[verified.worst.point].name;
   verdict.below_95_mm = verified.budget.below_95_mm;
   const bool bound = verdict.below_95_mm <= verified.tolerance_mm;
-  const bool seen = verdict.largest_mm <= verified.tolerance_mm;
+  const bool seen = verdict.beyond <= kMayLieBeyond;
   verdict.pass = bound && seen && verified.agreement.wrong == 0;
   verdict.words = fmt::format(
-      "{}: at {} the error stays below {:.3f} mm with 95 % probability at the worst moment ({:.2f} s), the "
-      "largest seen is {:.3f} mm; tolerance {:.3f} mm",
+      "{}: at {} the error stays below {:.3f} mm with 95 % probability at the worst moment ({:.2f} s); of "
+      "the "
+      "simulated errors {:.2g} % are beyond the tolerance of {:.3f} mm, the largest is {:.3f} mm",
       verdict.pass ? "PASS" : "FAIL", point, verdict.below_95_mm,
-      verified.watched.times_s[verified.worst.frame], verdict.largest_mm, verified.tolerance_mm);
+      verified.watched.times_s[verified.worst.frame], 100 * verdict.beyond, verified.tolerance_mm,
+      verdict.largest_mm);
   if (verified.agreement.wrong > 0)
     verdict.words += fmt::format("; {} poses were wrong", verified.agreement.wrong);
   if (verified.predicted.undetermined > 0) {

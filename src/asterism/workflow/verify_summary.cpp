@@ -166,6 +166,7 @@ Json summary_of(const VerifiedCell& verified, const VerifyOptions& options) {
                  {"tolerance_mm", verified.tolerance_mm},
                  {"nominal_mm", verified.nominal_mm},
                  {"below_95_mm", verified.verdict.below_95_mm},
+                 {"beyond", verified.verdict.beyond},
                  {"largest_mm", verified.verdict.largest_mm}}},
                {"visible",
                 {{"fewest", *std::min_element(visible.begin(), visible.end())},
