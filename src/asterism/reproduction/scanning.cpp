@@ -6,6 +6,7 @@
 
 #include "asterism/reproduction/chapters.hpp"
 #include "asterism/reproduction/printed.hpp"
+#include "asterism/reproduction/scan_claims.hpp"
 #include "asterism/reproduction/scan_rings.hpp"
 #include "asterism/reproduction/scanning_figures.hpp"
 
@@ -108,11 +109,7 @@ Chapter scanning_chapter() {
   add_counts(chapter.rows, upright, tilted);
   add_start(chapter.rows, upright);
   add_pattern(chapter.rows, upright, tilted);
-  const std::string no_cloud =
-      "neither the point cloud nor the part's shape is published, and stations alone make no cloud";
-  chapter.rows.push_back(
-      not_computable({"F25", "Fig. 25", "point cloud with missing data", "picture"}, no_cloud));
-  chapter.rows.push_back(not_computable({"F26", "Fig. 26", "complete point cloud", "picture"}, no_cloud));
+  add_scan_coverage(chapter);
   return chapter;
 }
 
