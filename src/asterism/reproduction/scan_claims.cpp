@@ -75,6 +75,7 @@ void add_figures(Chapter& chapter, const Scanned& cone, const Scanned& casing) {
   chapter.rows.push_back(compare_readings(
       {"S43.rate", "Section 4.3", "96 and 72 stations give the same reconstruction rate", "the same"},
       {same(cone), same(casing)}, open));
+  const FewestViews free_views = fewest_views_of_outer_wall(casing.part);
   const std::string what = "The outer side of a casing with flanges and bosses, unrolled, from ";
   chapter.exhibits.push_back(unrolled("F25", "Figure 25. What the stations of Table 15 miss",
                                       what + "the 96 stations: " + shares(casing.part, casing.level) + ".",
@@ -82,7 +83,10 @@ void add_figures(Chapter& chapter, const Scanned& cone, const Scanned& casing) {
   chapter.exhibits.push_back(unrolled(
       "F26", "Figure 26. After rescanning with the platform turned",
       what + "the same and 72 more while the part is pitched by 10°: " + shares(casing.part, casing.rescan) +
-          ". What is still missing lies under bosses and flanges, where a view from elsewhere is needed.",
+          fmt::format(
+              ". The flanges face up and down, too obliquely for any view from the side: {} views chosen "
+              "freely measure {:.1f} % of the outer side.",
+              free_views.views, 100 * free_views.share),
       casing, casing.rescan));
 }
 

@@ -16,14 +16,16 @@ constexpr std::size_t kSamples = 6000, kViews = 3000;
 constexpr std::uint64_t kSeed = 26;
 constexpr double kMaxTiltRad = 0.6;  // of a view from the normal: 35°
 
-ScannedPart part_of(std::string name, const TriangleMesh& surface, const CasingShape& shape) {
+/// The shape's foot at `foot_mm`.
+ScannedPart part_of(std::string name, const CasingShape& shape, double foot_mm) {
+  const TriangleMesh surface = moved(mesh_of(shape), {Quaternion::Identity(), {0, 0, foot_mm}});
   ScannedPart part{std::move(name), RayScene(surface), sample_surface(surface, kSamples, {}, kSeed), {}};
   const double slope = (shape.top_radius_mm - shape.bottom_radius_mm) / shape.height_mm;
   for (const SurfaceSample& sample : part.samples) {
-    const double wall_mm = shape.bottom_radius_mm + slope * sample.at.z();
+    const double height_mm = sample.at.z() - foot_mm;
+    const double wall_mm = shape.bottom_radius_mm + slope * height_mm;
     const double radius_mm = std::hypot(sample.at.x(), sample.at.y());
-    part.outer.push_back(radius_mm > wall_mm - 0.5 && sample.at.z() > 0.5 &&
-                         sample.at.z() < shape.height_mm - 0.5);
+    part.outer.push_back(radius_mm > wall_mm - 0.5 && height_mm > 0.5 && height_mm < shape.height_mm - 0.5);
   }
   return part;
 }
@@ -45,18 +47,17 @@ double share(const ScannedPart& part, std::span<const std::uint8_t> measured, bo
 }  // namespace
 
 ScannedPart bare_cone() {
+  constexpr double kSlope = 0.1208, kFootMm = -115;
   CasingShape shape;
   shape.height_mm = 600;
-  shape.top_radius_mm = shape.bottom_radius_mm + 0.1208 * shape.height_mm;
+  shape.bottom_radius_mm += kSlope * kFootMm;
+  shape.top_radius_mm = shape.bottom_radius_mm + kSlope * shape.height_mm;
   shape.flange_width_mm = 0;
   shape.bosses = 0;
-  return part_of("bare cone", mesh_of(shape), shape);
+  return part_of("bare cone", shape, kFootMm);
 }
 
-ScannedPart flanged_casing() {
-  const CasingShape shape;
-  return part_of("casing with flanges and bosses", mesh_of(shape), shape);
-}
+ScannedPart flanged_casing() { return part_of("casing with flanges and bosses", {}, 0); }
 
 std::vector<std::uint8_t> measured_from(const ScannedPart& part, std::span<const Viewpoint> stations) {
   const BitRows rows = rows_of(part, stations);
@@ -100,7 +101,9 @@ FewestViews fewest_views_of_outer_wall(const ScannedPart& part) {
   SetCoverOptions options;
   options.exact_s = 0;  // benchmarks/plan_bench.cpp asks the exact part too
   const SetCover cover = solve(problem, options, kSeed, no_progress);
-  return {cover.chosen.size(), static_cast<std::size_t>(std::lround(cover.bound))};
+  double area = 0;
+  for (const SurfaceSample& sample : outer) area += sample.area_mm2;
+  return {cover.chosen.size(), static_cast<std::size_t>(std::lround(cover.bound)), cover.covered / area};
 }
 
 }  // namespace asterism

@@ -22,7 +22,8 @@ struct ScannedPart {
   std::vector<SurfaceSample> samples;
   std::vector<std::uint8_t> outer;  // by sample: it belongs to the outer wall and what stands out from it
 };
-/// 600 mm high, 12 mm thick, open above and below.
+/// From 115 mm below the frame to 485 mm above, 12 mm thick, open at both ends: as far as the rings of both
+/// tables reach, whose stations look at places 36 mm higher than themselves.
 [[nodiscard]] ScannedPart bare_cone();
 /// The casing of the built-in cell: 560 mm, flanges below and above, twelve bosses.
 [[nodiscard]] ScannedPart flanged_casing();
@@ -38,10 +39,11 @@ struct ScannedPart {
 [[nodiscard]] double share_of_outer(const ScannedPart& part, std::span<const std::uint8_t> measured);
 [[nodiscard]] double share_of_whole(const ScannedPart& part, std::span<const std::uint8_t> measured);
 
-/// The fewest of 3,000 views that were found for 99 % of the outer wall, and how few no choice of them goes
-/// below.
+/// The fewest of 3,000 views that were found for 99 % of what they measure of the outer wall, how few no
+/// choice of them goes below, and that share of the outer wall's area.
 struct FewestViews {
   std::size_t views = 0, bound = 0;
+  double share = 0;
 };
 [[nodiscard]] FewestViews fewest_views_of_outer_wall(const ScannedPart& part);
 

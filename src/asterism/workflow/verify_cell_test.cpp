@@ -58,14 +58,16 @@ TEST(VerifyCell, PassesOrFailsByTheToleranceInWords) {
 
 TEST(VerifyCell, IsNotFailedByTheLargestOfManyDraws) {
   Cell cell = small_cell();
-  const VerifiedCell good = verify_cell(cell, quick_job(), no_progress);
-  cell.verification.tolerance_mm = 0.999 * good.verdict.largest_mm;
-  const VerifiedCell still = verify_cell(cell, quick_job(), no_progress);
+  VerifyJob job = quick_job();
+  job.options.repeats = 12;
+  job.options.faults = job.options.fusion = job.options.speed = false;
+  const VerifiedCell good = verify_cell(cell, job, no_progress);
+  ASSERT_GT(good.verdict.largest_mm, good.verdict.below_95_mm) << "else the tolerance below means nothing";
+  cell.verification.tolerance_mm = 0.9999 * good.verdict.largest_mm;
+  const VerifiedCell still = verify_cell(cell, job, no_progress);
   EXPECT_GT(still.verdict.beyond, 0);
   EXPECT_LE(still.verdict.beyond, kMayLieBeyond);
   EXPECT_TRUE(still.verdict.pass) << still.verdict.words;
-  cell.verification.tolerance_mm = 0.01;
-  EXPECT_GT(verify_cell(cell, quick_job(), no_progress).verdict.beyond, 0.5);
 }
 
 TEST(VerifyCell, WritesWholeFilesThatTellTheSame) {
