@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// node report_smoke.mjs PAGE: opens the built report page from disk, with a small recording, with a few layouts and
-// with a cell in motion, as a reader would, and asks whether it shows what it should. Ends with 77 (skipped) where there is no Chromium.
+// node report_smoke.mjs PAGE: opens the built report page from disk, with a small recording, with a few layouts,
+// with a cell in motion and with scans, as a reader would, and asks whether it shows what it should. Ends with 77 (skipped) where there is no Chromium.
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -9,6 +9,7 @@ import { cell, moved } from './cell_fixture.mjs';
 import { findChromium, openBrowser } from './chromium.mjs';
 import { layouts } from './layout_fixture.mjs';
 import { pageWith } from './page_with.mjs';
+import { scans } from './scan_fixture.mjs';
 
 const kFrames = 40;
 
@@ -201,6 +202,72 @@ async function measureInCell({ send, evaluate }, data, until, press) {
   expect(await evaluate(`document.querySelector('.measured .length')`) === null, 'Esc forgets what was measured');
 }
 
+const kMissing = inColour(217, 84, 30);   // not measured, in the light theme; shaded a little
+const kChosen = inColour(245, 183, 0);
+const kPicture = `new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => resolve(document.querySelector('.scene canvas').toDataURL()))))`;
+
+async function lookAtScans(browser, file, data) {
+  const { send, evaluate } = browser;
+  const until = await open(browser, file);
+  expect(await until(`document.querySelectorAll('#figure-coverage circle').length === ${data.rounds[0].plan.views.length}`), 'coverage has a mark a view');
+  expect(await until(`${kInk} > 5000`), 'the 3-D view draws the part with the plan');
+  expect(await evaluate('document.title') === 'Conical casing: where to scan, and one true cloud – asterism', 'the title is that of the scans');
+  expect(await evaluate(`document.body.innerText.includes('</script><b>platform turned')`), 'a round\'s name stays text');
+  expect(await evaluate(`[...document.querySelectorAll('#figure-coverage text')].some((t) => t.textContent.startsWith('this plan '))`), 'what the plan covers is named');
+  expect(await evaluate(`document.querySelectorAll('#figure-deviation rect').length`) === 61, 'the histogram has its bins');
+  expect(await evaluate(`document.querySelectorAll('#figure-limits rect').length`) === 9, 'each limit has its bar');
+  const named = await evaluate(`(() => { const boxes = [...document.querySelectorAll('#figure-coverage g > text')].map((t) => t.getBoundingClientRect()); return boxes.some((a, i) => boxes.some((b, k) => k > i && a.left < b.right && b.left < a.right && a.top < b.bottom - 2 && b.top < a.bottom - 2)); })()`);
+  expect(!named, 'no name in the coverage covers another');
+
+  const press = (text) => evaluate(`[...document.querySelectorAll('button')].find((b) => b.textContent.trim() === '${text}').click()`);
+  const key = (name, shift = false) => evaluate(`document.dispatchEvent(new KeyboardEvent('keydown', { key: '${name}', shiftKey: ${shift}, bubbles: true }))`);
+  const pointed = () => evaluate(`document.querySelector('.pointed').textContent`);
+  await key('ArrowRight', true);
+  expect((await pointed()).startsWith('View 1: mean incidence'), `Shift and an arrow choose a view, not "${await pointed()}"`);
+  expect(await until(`${kChosen} > 100`), 'what the chosen view measures is lit');
+  await evaluate(`document.querySelectorAll('#figure-tour g.pick')[2].dispatchEvent(new MouseEvent('click', { bubbles: true }))`);
+  expect((await pointed()).startsWith('View 3: mean incidence 18.4°, σ not determined'), 'a block of the tour chooses its view, and what is not known is said');
+  await key('Escape');
+  expect(await until(`${kChosen} === 0`), 'Esc lets go of it');
+
+  await press('cloud');
+  expect(await evaluate(`document.querySelector('.scene-key').textContent.includes(' of 50\u202f000 points are drawn')`), 'it is said how many points are drawn');
+  await measureOnCloud(browser, until);
+  await press('completeness');
+  expect(await until(`${kMissing} > 100`), 'what is not measured is coloured');
+  const rows = await evaluate(`document.querySelectorAll('#holes-1-title').length && [...document.querySelectorAll('.round-tables section')][1].querySelectorAll('tbody tr').length`);
+  expect(rows === data.rounds[0].completeness.holes.length, 'the holes are listed');
+  const drawn = await evaluate(kPicture);
+  await evaluate(`[...document.querySelectorAll('.round-tables section')][1].querySelector('tbody button').click()`);
+  expect(await evaluate(kPicture) !== drawn, 'a hole of the list is shown');
+
+  await key('ArrowRight');
+  expect(await evaluate(`document.querySelector('#views-2-title') !== null && document.querySelector('.rounds tr.active').textContent.includes('platform turned')`), 'an arrow key goes to the next round');
+  await press('side by side');
+  expect(await until(`document.querySelectorAll('.scenes.pair .scene').length === 2`), 'two rounds stand side by side');
+  await press('off');
+  expect(await evaluate(`document.querySelectorAll('.scene')[1].hidden`), 'and one alone again');
+}
+
+/// Two clicks where the view shows the part's wall: the points' distance is told.
+async function measureOnCloud({ send, evaluate }, until) {
+  await evaluate(`document.querySelector('.scene').scrollIntoView({ block: 'center', behavior: 'instant' })`);
+  await new Promise((resolve) => setTimeout(resolve, 300));
+  for (const place of [[0.66 * 490, -0.75 * 490, 250], [0.8 * 490, -0.6 * 490, 350]]) {
+    const at = await evaluate(`(() => { const c = document.querySelector('.scene canvas'); const r = c.getBoundingClientRect(); const [x, y] = c.project(${JSON.stringify(place)}); return [r.left + x, r.top + y]; })()`);
+    await send('Input.dispatchMouseEvent', { type: 'mouseMoved', x: at[0], y: at[1] });
+    expect(await until(`/deviation .* scan \\d/.test(document.querySelector('.pointed').textContent)`), 'the point under the cursor is told');
+    await send('Input.dispatchMouseEvent', { type: 'mousePressed', x: at[0], y: at[1], button: 'left', clickCount: 1 });
+    await send('Input.dispatchMouseEvent', { type: 'mouseReleased', x: at[0], y: at[1], button: 'left', clickCount: 1 });
+  }
+  expect(await until(`document.querySelector('.measured .length') !== null`), 'two clicks measure on the cloud');
+  const told = parseFloat(await evaluate(`document.querySelector('.measured .length')?.textContent ?? ''`));
+  // 141 mm between the places that were clicked; the drawn points lie some 25 mm apart.
+  expect(Math.abs(told - 141) < 50, `the distance is about 141 mm, not ${told}`);
+  await evaluate(`document.dispatchEvent(new KeyboardEvent('keydown', { key: 'Escape', bubbles: true }))`);
+  expect(await evaluate(`document.querySelector('.measured .length')`) === null, 'Esc forgets what was measured on the cloud');
+}
+
 const program = findChromium();
 if (!program) {
   console.log('skipped: no Chromium here (Debian: apt-get install chromium)');
@@ -218,6 +285,8 @@ try {
   await lookAtLayouts(browser, fileWith('layouts.html', layouts()));
   const small = cell({ frames: 40, sides: 24, longest: 200 });
   await lookAtCell(browser, fileWith('cell.html', small), small);
+  const scanned = scans({ points: 4000, samples: 1200, sides: 48, total: 50000 });
+  await lookAtScans(browser, fileWith('scans.html', scanned), scanned);
   browser.problems.forEach((problem) => failures.push(problem));
 } finally {
   await browser.close();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { CellReport, CellSolid } from './cell_report';
+import { countsOf, floatsOf } from './packed';
 import type { Vec3 } from './parts';
 
 /// A surface as numbers, with the box that holds it.
@@ -8,24 +9,6 @@ export interface Mesh {
   corners: Uint32Array;     // three a triangle
   low: Vec3;
   high: Vec3;
-}
-
-function bytesOf(base64: string): DataView {
-  const text = atob(base64);
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
-  return new DataView(bytes.buffer);
-}
-
-/// Lowest byte first whatever the machine.
-export function floatsOf(base64: string): Float32Array {
-  const view = bytesOf(base64);
-  return Float32Array.from({ length: view.byteLength / 4 }, (_, i) => view.getFloat32(4 * i, true));
-}
-
-export function countsOf(base64: string): Uint32Array {
-  const view = bytesOf(base64);
-  return Uint32Array.from({ length: view.byteLength / 4 }, (_, i) => view.getUint32(4 * i, true));
 }
 
 export function meshOfSolid(solid: Pick<CellSolid, 'vertices' | 'triangles'>): Mesh {

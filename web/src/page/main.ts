@@ -6,6 +6,7 @@ import { h } from '../dom';
 import { cellPage } from './cell_page';
 import { showPage, type PageContent } from './frame';
 import { layoutPage } from './layout_page';
+import { scanPage } from './scan_page';
 import { trackingPage } from './tracking_page';
 
 function contentOf(report: Report): PageContent {
@@ -13,6 +14,7 @@ function contentOf(report: Report): PageContent {
     case 'asterism-tracking-report/1': return trackingPage(report);
     case 'asterism-layout-report/1': return layoutPage(report);
     case 'asterism-cell-report/1': return cellPage(report);
+    case 'asterism-scan-report/1': return scanPage(report);
   }
 }
 

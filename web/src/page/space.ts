@@ -36,7 +36,7 @@ export function spacePanel<Layer extends string, View extends string, Scene exte
   const toggles = layers.map(({ layer, text, shown }) => {
     const box = h('input', { type: 'checkbox', checked: shown });
     box.addEventListener('change', () => scene?.setLayer(layer, box.checked));
-    return h('label', {}, box, text);
+    return h('label', { 'data-layer': layer }, box, text);
   });
   const buttons = views.map((view) => h('button', { type: 'button', onclick: () => scene?.look(view) }, view));
   const save = h('button', { type: 'button', title: 'Save the view as an image', onclick: async () => {

@@ -8,7 +8,7 @@ import type { Vec2 } from './stage';
 const kHeight = 150;
 const kWidth = 13;
 
-function written(context: CanvasRenderingContext2D, text: string, x: number, y: number, ink: string): void {
+export function written(context: CanvasRenderingContext2D, text: string, x: number, y: number, ink: string): void {
   context.lineWidth = 3.5;
   context.lineJoin = 'round';
   context.setLineDash([]);
@@ -18,13 +18,13 @@ function written(context: CanvasRenderingContext2D, text: string, x: number, y: 
   context.fillText(text, x, y);
 }
 
-/// The colours of the error map with their numbers, at the left bottom; what is allowed as a mark beside them.
-export function drawColourBar(context: CanvasRenderingContext2D, height: number, [low, high]: [number, number], title: string, limit: { label: string; value: number }): void {
+/// The colours of a map with their numbers, at the left bottom; what is allowed as marks beside them.
+export function drawColourBar(context: CanvasRenderingContext2D, height: number, [low, high]: [number, number], title: string, limits: { label: string; value: number }[], colourOf: (part: number) => string = ramp): void {
   const left = 16;
   const bottom = height - 18;
   const at = (value: number) => bottom - (high > low ? (value - low) / (high - low) : 0.5) * kHeight;
   for (let i = 0; i < kHeight; ++i) {
-    context.fillStyle = ramp((i + 0.5) / kHeight);
+    context.fillStyle = colourOf((i + 0.5) / kHeight);
     context.fillRect(left, bottom - i - 1, kWidth, 1.5);
   }
   context.setLineDash([]);
@@ -41,10 +41,12 @@ export function drawColourBar(context: CanvasRenderingContext2D, height: number,
   }
   context.font = '600 11px system-ui, sans-serif';
   written(context, title, left, bottom - kHeight - 12, colour('--ink'));
-  if (limit.value < low || limit.value > high) return;
-  context.fillStyle = colour('--flag');
-  context.fillRect(left - 4, at(limit.value) - 1, kWidth + 8, 2);
-  written(context, limit.label, left + kWidth + 52, at(limit.value) + 4, colour('--flag'));
+  for (const limit of limits) {
+    if (limit.value < low || limit.value > high) continue;
+    context.fillStyle = colour('--flag');
+    context.fillRect(left - 4, at(limit.value) - 1, kWidth + 8, 2);
+    written(context, limit.label, left + kWidth + 52, at(limit.value) + 4, colour('--flag'));
+  }
 }
 
 /// One or two places that were picked, and between them their distance.

@@ -44,7 +44,7 @@ export function cellScene(report: CellReport, meshes: Mesh[], scales: CellScales
   let [now, solidLook, measured] = [first, 'shaded' as SolidLook, [] as Spot[]];
   const range = mapRange(report.solids);
   const stage = stageOf('Three-dimensional view of the cell: cameras, targets, part and lines of sight', scales.radius, () => (layers.names ? [...rig.labels, ...labelsOf(report, now, layers)] : []), (context, _, height) => {
-    if (solidLook === 'error map' && range) drawColourBar(context, height, range, 'worst predicted error (mm)', { label: 'tolerance', value: report.tolerance_mm });
+    if (solidLook === 'error map' && range) drawColourBar(context, height, range, 'worst predicted error (mm)', [{ label: 'tolerance', value: report.tolerance_mm }]);
     const text = measured.length === 2 ? `${significant(distance(report, measured[0], measured[1], now.frame).length, 5)} mm` : '';
     drawMeasure(context, measured.map((spot) => stage.project(placeOf(report, spot, now.frame))), text);
   });

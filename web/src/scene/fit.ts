@@ -14,13 +14,13 @@ function unit(a: Vec3): Vec3 {
   return [a[0] / length, a[1] / length, a[2] / length];
 }
 
-/// The nearest place from which all points are seen, looking against `direction` with −y up, for a view that
+/// The nearest place from which all points are seen, looking against `direction` with `above` up, for a view that
 /// opens by the tangents `wide` and `high` to each side. Along one axis of the view the place c must keep
 /// x − t z ≤ c_x − t c_z and c_x + t c_z ≤ x + t z for every point: the extremes of both sides meet at the
 /// nearest depth. Turning is about the points' middle depth.
-export function standingPoint(points: Vec3[], direction: Vec3, wide: number, high: number): { target: Vec3; position: Vec3 } {
+export function standingPoint(points: Vec3[], direction: Vec3, wide: number, high: number, above: Vec3 = [0, -1, 0]): { target: Vec3; position: Vec3 } {
   const forward = unit([-direction[0], -direction[1], -direction[2]]);
-  const right = unit(cross(forward, [0, -1, 0]));
+  const right = unit(cross(forward, above));
   const up = cross(right, forward);
   const side = (axis: Vec3, tangent: number) => {
     let least = Infinity;

@@ -23,6 +23,11 @@ export interface Stage {
   project: (at: Vec3) => Vec2 | null;                          // from the view's left top, px; null outside
   rayAt: (x: number, y: number) => THREE.Raycaster;            // through that place of the view
   onClick: (listener: (x: number, y: number) => void) => void; // a press that does not drag
+  onHover: (listener: (at: Vec2 | null) => void) => void;      // no button pressed; null when it leaves
+  onTurn: (listener: () => void) => void;                      // the reader looks from elsewhere
+  isFitted: () => boolean;                                     // what is to be seen, not where the reader turned it
+  pxPerTangent: () => number;                                  // pixels of the drawing that a tangent of 1 spans
+  standing: () => { target: Vec3; position: Vec3 };
   refresh: () => void;                                         // after a change of theme or size
   still: () => void;                                           // before printing: browsers print no WebGL
   png: () => Promise<Blob | null>;
@@ -32,16 +37,17 @@ const kFieldOfView = 32;
 const kStill = 4;     // px: a press that moves further turns the view
 const kMargin = 0.84;  // of the view is filled
 
-/// A view of things in the tracker's frame (x right, y down, z forward), drawn only when something changed.
-export function stageOf(words: string, radius: number, labels: () => Label[], overlay: Overlay = () => {}): Stage {
-  const drawing = h('canvas', { role: 'img', tabindex: 0, 'aria-label': `${words}. Drag turns, wheel zooms, right drag moves; the arrow keys step through the frames.` });
+/// A view of things in the tracker's frame (x right, y down, z forward) unless another direction is up, drawn only
+/// when something changed.
+export function stageOf(words: string, radius: number, labels: () => Label[], overlay: Overlay = () => {}, above: Vec3 = [0, -1, 0]): Stage {
+  const drawing = h('canvas', { role: 'img', tabindex: 0, 'aria-label': `${words}. Drag turns, wheel zooms, right drag moves; the arrow keys step on and back.` });
   const names = h('canvas', { class: 'names', 'aria-hidden': 'true' });
   const printed = h('img', { class: 'printed', alt: words });
   const element = h('div', { class: 'scene' }, drawing, names, printed);
   const renderer = new THREE.WebGLRenderer({ canvas: drawing, antialias: true, alpha: true, preserveDrawingBuffer: true });
   const scene = new THREE.Scene();
   const camera = new THREE.PerspectiveCamera(kFieldOfView, 1, radius / 300, radius * 30);
-  camera.up.set(0, -1, 0);
+  camera.up.set(...above);
   const controls = new OrbitControls(camera, drawing);
   controls.zoomSpeed = 1.4;
   const inks = new Inks();
@@ -71,6 +77,7 @@ export function stageOf(words: string, radius: number, labels: () => Label[], ov
     camera.aspect = width / height;
     camera.updateProjectionMatrix();
   };
+  let fitted: { points: Vec3[]; direction: Vec3 } | null = null;  // until the reader looks from elsewhere
   const refresh = () => {
     const { clientWidth: width, clientHeight: height } = element;
     if (width === 0 || height === 0) return;
@@ -78,10 +85,12 @@ export function stageOf(words: string, radius: number, labels: () => Label[], ov
     // Printed is the picture as it was on the screen: there the view has no size of its own.
     const printing = size.width > 0 && window.matchMedia('print').matches;
     if (!printing && (width !== size.width || height !== size.height || ratio !== size.ratio)) resize(width, height, ratio);
+    if (fitted) see(fitted.points, fitted.direction);
     inks.refresh(size.width, size.height);
     draw();
   };
   const stand = (target: Vec3, position: Vec3) => {
+    fitted = null;
     controls.target.set(...target);
     camera.position.set(...position);
     controls.update();
@@ -89,8 +98,9 @@ export function stageOf(words: string, radius: number, labels: () => Label[], ov
   };
   const see = (points: Vec3[], direction: Vec3) => {
     const up = kMargin * Math.tan((kFieldOfView * Math.PI) / 360);
-    const { target, position } = standingPoint(points, direction, up * camera.aspect, up);
+    const { target, position } = standingPoint(points, direction, up * camera.aspect, up, above);
     stand(target, position);
+    fitted = { points, direction };
   };
   const composed = (): HTMLCanvasElement => {
     draw();
@@ -122,12 +132,24 @@ export function stageOf(words: string, radius: number, labels: () => Label[], ov
       listener(event.clientX - box.left, event.clientY - box.top);
     });
   };
+  const onHover = (listener: (at: Vec2 | null) => void) => {
+    drawing.addEventListener('pointerleave', () => listener(null));
+    drawing.addEventListener('pointermove', (event) => {
+      const box = drawing.getBoundingClientRect();
+      listener(event.buttons === 0 ? [event.clientX - box.left, event.clientY - box.top] : null);
+    });
+  };
   // Where a place of the tracker is on the screen, for who drives the page by script.
   Object.assign(drawing, { project });
+  controls.addEventListener('start', () => (fitted = null));
   controls.addEventListener('change', request);
   new ResizeObserver(refresh).observe(element);
   return {
-    element, scene, inks, request, stand, see, project, rayAt, onClick, refresh,
+    element, scene, inks, request, stand, see, project, rayAt, onClick, onHover, refresh,
+    onTurn: (listener) => controls.addEventListener('change', listener),
+    isFitted: () => fitted !== null,
+    pxPerTangent: () => drawing.height / (2 * Math.tan((kFieldOfView * Math.PI) / 360)),
+    standing: () => ({ target: controls.target.toArray() as Vec3, position: camera.position.toArray() as Vec3 }),
     still: () => {
       printed.src = composed().toDataURL();
     },

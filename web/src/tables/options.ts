@@ -6,13 +6,16 @@ import type { Lens, Rig } from '../data/parts';
 import { h } from '../dom';
 import { flattened } from './flatten';
 
-/// The effective options, one a line, nested names joined by dots; the rig; how to read the page.
-export function optionSection(options: unknown, rig: Rig, reading: string[]): HTMLElement {
-  const rows = flattened(options).map(([name, value]) => h('tr', {}, h('th', { scope: 'row' }, name), h('td', { class: 'number' }, value)));
+/// The effective options, one a line, nested names joined by dots; the rig and the scanner where the page is about them;
+/// how to read the page.
+export function optionSection(options: unknown, rig: Rig | null, reading: string[], scanner: unknown = null): HTMLElement {
+  const lines = (value: unknown) => flattened(value).map(([name, text]) => h('tr', {}, h('th', { scope: 'row' }, name), h('td', { class: 'number' }, text)));
+  const rows = lines(options);
   return h('section', { class: 'panel' },
     h('details', {}, h('summary', {}, h('h2', {}, 'Effective options')),
       rows.length > 0 ? h('table', { class: 'data narrow' }, h('tbody', {}, ...rows)) : h('p', {}, 'None were stored.')),
-    h('details', {}, h('summary', {}, h('h2', {}, 'Rig')), rigTable(rig)),
+    rig && h('details', {}, h('summary', {}, h('h2', {}, 'Rig')), rigTable(rig)),
+    scanner !== null && h('details', {}, h('summary', {}, h('h2', {}, 'Scanner')), h('table', { class: 'data narrow' }, h('tbody', {}, ...lines(scanner)))),
     h('details', {}, h('summary', {}, h('h2', {}, 'How to read this')), h('ul', { class: 'reading' }, ...reading.map((item) => h('li', {}, item)))));
 }
 
