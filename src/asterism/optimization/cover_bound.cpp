@@ -78,34 +78,37 @@ std::vector<double> first_prices(const CoverModel& model) {
 }  // namespace
 
 CoverPrices dual_bound(const CoverModel& model, double upper, int steps) {
-  constexpr int kPatience = 15;  // steps without gain before they are made shorter
+  constexpr int kPatience = 40;       // steps without gain before they are made shorter
+  constexpr double kShortest = 1e-3;  // of the full step
+  constexpr double kInertia = 0.8;    // of the last direction that is kept: less zigzag
   CoverPrices best;
   if (model.target == 0) return best;
   Relaxation relaxation(model);
-  std::vector<double> price = first_prices(model);
+  std::vector<double> price = first_prices(model), direction(model.rows(), 0);
   double stride = 1;
   int since_gain = 0;
-  for (int step = 0; step < steps && stride > 1e-3; ++step) {
+  for (int step = 0; step < steps && stride > kShortest; ++step) {
     const double value = relaxation(price);
-    const bool gained = value > best.bound;
-    if (gained || step == 0) best = {price, std::max(value, 0.0)};
-    since_gain = gained ? 0 : since_gain + 1;
-    if (since_gain == kPatience) {
+    if (step == 0 || value > best.bound) {
+      best = {price, std::max(value, 0.0)};
+      since_gain = 0;
+      if (rounded_up(model, best.bound) >= upper) break;
+    }
+    double square = 0;
+    for (std::size_t i = 0; i < model.rows(); ++i) {
+      direction[i] = kInertia * direction[i] + (1 - kInertia) * relaxation.missed()[i];
+      if (direction[i] > 0 || price[i] > 0) square += direction[i] * direction[i];
+    }
+    if (++since_gain > kPatience || square == 0) {
       stride /= 2;
       since_gain = 0;
       price = best.price;
+      std::fill(direction.begin(), direction.end(), 0.0);
       continue;
     }
-    if (rounded_up(model, best.bound) >= upper) return best;
-    double square = 0;
-    for (std::size_t i = 0; i < model.rows(); ++i) {
-      const double missed = relaxation.missed()[i];
-      if (missed > 0 || price[i] > 0) square += missed * missed;
-    }
-    if (square == 0) return best;
-    const double by = stride * (1.02 * upper - value) / square;
-    for (std::size_t i = 0; i < model.rows(); ++i)
-      price[i] = std::max(0.0, price[i] + by * relaxation.missed()[i]);
+    // aims a little above what can be reached, so that steps do not vanish beside it
+    const double by = stride * std::max(0.0, 1.02 * upper - value) / square;
+    for (std::size_t i = 0; i < model.rows(); ++i) price[i] = std::max(0.0, price[i] + by * direction[i]);
   }
   return best;
 }

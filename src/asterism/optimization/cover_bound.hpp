@@ -17,8 +17,9 @@ struct CoverPrices {
 ///
 ///   min { Σ dᵢuᵢyᵢ : Σ wᵢyᵢ ≥ target, 0 ≤ y ≤ 1 } + Σ_g min(0, f_g + Σ_{j in g} min(0, cⱼ − Σ_{i in j} uᵢ))
 ///
-/// is at most the least cost; u climbs by subgradients (Held & Karp 1971, Fisher 1981) towards `upper`, a
-/// known cover's cost. What it reaches is at most the linear relaxation's bound, and near it.
-[[nodiscard]] CoverPrices dual_bound(const CoverModel& model, double upper, int steps = 400);
+/// is at most the least cost; u climbs by subgradients (Held & Karp 1971) towards `upper`, a
+/// known cover's cost. It ends near the linear relaxation's bound, in a small
+/// part of its time.
+[[nodiscard]] CoverPrices dual_bound(const CoverModel& model, double upper, int steps = 1500);
 
 }  // namespace asterism

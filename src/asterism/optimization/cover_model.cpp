@@ -67,6 +67,16 @@ double weight_scale(const std::vector<double>& weight) {
   return most / sum;
 }
 
+/// Groups that cost nothing to open, or have no columns, need not be thought of.
+void drop_free_groups(CoverModel& model, const std::vector<double>& group_cost) {
+  bool any = false;
+  for (std::uint32_t& group : model.group) {
+    if (group != kNoGroup && group_cost[group] == 0) group = kNoGroup;
+    any = any || group != kNoGroup;
+  }
+  model.group_cost = any ? group_cost : std::vector<double>{};
+}
+
 }  // namespace
 
 void NumberLists::add(std::span<const std::uint32_t> list) {
@@ -119,12 +129,37 @@ CoverModel model_of(const SetCoverProblem& problem) {
   }
   model.columns_of = model.rows_of.transposed(model.weight.size());
   model.cost = problem.cost.empty() ? std::vector<double>(problem.columns.size(), 1.0) : problem.cost;
-  model.group.assign(problem.columns.size(), kNoGroup);
-  for (std::size_t j = 0; j < problem.group.size(); ++j)
-    if (problem.group_cost[problem.group[j]] > 0) model.group[j] = problem.group[j];
-  if (std::any_of(model.group.begin(), model.group.end(), [](std::uint32_t g) { return g != kNoGroup; }))
-    model.group_cost = problem.group_cost;
+  model.group =
+      problem.group.empty() ? std::vector<std::uint32_t>(problem.columns.size(), kNoGroup) : problem.group;
+  drop_free_groups(model, problem.group_cost);
   return model;
+}
+
+CoverModel part_of(const CoverModel& model, const std::vector<char>& keep_row,
+                   const std::vector<char>& keep_column) {
+  CoverModel part;
+  std::vector<std::uint32_t> new_row(model.rows(), kNoGroup);
+  for (std::size_t i = 0; i < model.rows(); ++i) {
+    if (keep_row[i] == 0) continue;
+    new_row[i] = static_cast<std::uint32_t>(part.weight.size());
+    part.weight.push_back(model.weight[i]);
+    part.demand.push_back(model.demand[i]);
+    part.total += model.weight[i];
+  }
+  part.target = model.is_partial() ? model.target : part.total;
+  std::vector<std::uint32_t> rows;
+  for (std::size_t j = 0; j < model.columns(); ++j) {
+    if (keep_column[j] == 0) continue;
+    rows.clear();
+    for (const std::uint32_t i : model.rows_of[j])
+      if (keep_row[i] != 0) rows.push_back(new_row[i]);
+    part.rows_of.add(rows);
+    part.cost.push_back(model.cost[j]);
+    part.group.push_back(model.group[j]);
+  }
+  part.columns_of = part.rows_of.transposed(part.weight.size());
+  drop_free_groups(part, model.group_cost);
+  return part;
 }
 
 double cost_of(const CoverModel& model, std::span<const std::uint32_t> chosen) {

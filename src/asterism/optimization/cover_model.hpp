@@ -52,6 +52,10 @@ struct CoverModel {
 /// Throws InputError for what is not there or cannot be. Columns keep their numbers.
 [[nodiscard]] CoverModel model_of(const SetCoverProblem& problem);
 
+/// Only the rows and columns that are kept; where all rows were wanted, all that are left are.
+[[nodiscard]] CoverModel part_of(const CoverModel& model, const std::vector<char>& keep_row,
+                                 const std::vector<char>& keep_column);
+
 /// Of columns that are chosen, groups' costs included.
 [[nodiscard]] double cost_of(const CoverModel& model, std::span<const std::uint32_t> chosen);
 

@@ -5,8 +5,11 @@
 
 #include "asterism/core/result.hpp"
 #include "asterism/optimization/cover_bound.hpp"
+#include "asterism/optimization/cover_exact.hpp"
 #include "asterism/optimization/cover_greedy.hpp"
 #include "asterism/optimization/cover_model.hpp"
+#include "asterism/optimization/cover_reductions.hpp"
+#include "asterism/optimization/cover_search.hpp"
 
 namespace asterism {
 namespace {
@@ -28,6 +31,18 @@ double weight_of_covered(const SetCoverProblem& problem, const std::vector<std::
   return weight;
 }
 
+/// In the problem's own numbers.
+void finish(const SetCoverProblem& problem, const CoverModel& whole, const ReducedCover& reduction,
+            const std::vector<std::uint32_t>& cover, SetCover& result) {
+  std::vector<std::uint32_t> columns = reduction.forced;
+  for (const std::uint32_t j : cover) columns.push_back(reduction.column[j]);
+  std::sort(columns.begin(), columns.end());
+  result.chosen = in_order_of_gain(whole, columns);
+  result.cost = cost_of(whole, result.chosen);
+  result.covered = weight_of_covered(problem, &result.chosen);
+  result.coverable = weight_of_covered(problem, nullptr);
+}
+
 }  // namespace
 
 void describe(SetCoverOptions& options, OptionVisitor& visit) {
@@ -38,25 +53,44 @@ void describe(SetCoverOptions& options, OptionVisitor& visit) {
              "end the exact search by counts of nodes, not by the clock, so that results repeat");
 }
 
-SetCover solve(const SetCoverProblem& problem, const SetCoverOptions& options, std::uint64_t /*seed*/,
+SetCover solve(const SetCoverProblem& problem, const SetCoverOptions& options, std::uint64_t seed,
                const Progress& progress) {
   SetCoverOptions checked = options;
   LimitsCheck limits;
   describe(checked, limits);
-  const CoverModel model = model_of(problem);
+  const CoverModel whole = model_of(problem);
+  progress("reducing the cover problem", 0, 1);
+  const ReducedCover reduction = reduced(whole);
+  const CoverModel& model = reduction.model;
+  const double forced_cost = cost_of(whole, reduction.forced);
 
   SetCover result;
   result.rows_left = model.rows();
   result.columns_left = model.columns();
-  progress("choosing greedily", 0, 1);
-  const auto cover = without_needless(model, greedy_cover(model));
-  result.cost = result.greedy_cost = result.local_cost = cost_of(model, cover);
-  result.bound = std::min(result.cost, rounded_up(model, dual_bound(model, result.cost).bound));
-  result.optimal = result.bound >= result.cost;
-  result.exact = "not asked";
-  result.chosen = in_order_of_gain(model, cover);
-  result.covered = weight_of_covered(problem, &result.chosen);
-  result.coverable = weight_of_covered(problem, nullptr);
+  auto cover = without_needless(model, greedy_cover(model));
+  result.greedy_cost = forced_cost + cost_of(model, cover);
+  const double first_bound = rounded_up(model, dual_bound(model, cost_of(model, cover)).bound);
+  cover = searched_cover(model, cover, options.local_steps, first_bound, seed, progress);
+  result.local_cost = forced_cost + cost_of(model, cover);
+
+  progress("bounding the cover", 0, 1);
+  const CoverPrices prices = dual_bound(model, cost_of(model, cover));  // a lower aim takes it higher
+  double bound = std::max(first_bound, rounded_up(model, prices.bound));
+  const double good_enough = (1 - options.gap) * result.local_cost;
+  if (forced_cost + bound >= good_enough - 1e-9 * good_enough) {
+    result.exact = "not needed";
+  } else if (options.exact_s == 0) {
+    result.exact = "not asked";
+  } else {
+    auto exact = exact_cover(model, cover, prices, options, progress);
+    cover = std::move(exact.chosen);
+    bound = std::max(bound, rounded_up(model, exact.bound));
+    result.exact = std::move(exact.words);
+  }
+  finish(problem, whole, reduction, cover, result);
+  result.bound = std::min(result.cost, forced_cost + bound);
+  result.optimal = result.cost - result.bound <= 1e-9 * result.cost;
+  if (result.optimal) result.bound = result.cost;
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "asterism/core/parallel.hpp"
 #include "asterism/core/result.hpp"
 #include "asterism/optimization/cover_problems_for_tests.hpp"
 
@@ -71,6 +72,61 @@ TEST(SetCover, BoundIsNeverAboveTheLeastCostInAnyForm) {
       EXPECT_LE(cover.bound, least + 1e-9) << which;
       EXPECT_TRUE(!cover.optimal || cover.cost <= least + 1e-9) << which;
     }
+}
+
+TEST(SetCover, FindsTheLeastCostInAnyForm) {
+  for (unsigned form = 0; form < 16; ++form)
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+      const SetCoverProblem problem = small_problem(seed, form);
+      const std::string which = "form " + std::to_string(form) + ", seed " + std::to_string(seed);
+      for (const int local_steps : {0, 300}) {
+        const SetCover cover = solved(problem, {local_steps, 5, 0, true});
+        expect_sound(problem, cover, which);
+        EXPECT_NEAR(cover.cost, least_cost(problem), 1e-6) << which;
+        EXPECT_TRUE(cover.optimal) << which << ": " << cover.exact;
+      }
+    }
+}
+
+TEST(SetCover, FindsTheBestKnownCoversOfCubesAndTripleSystems) {
+  const SetCoverOptions local{100000, 0, 0, true};
+  EXPECT_EQ(solved(cube_cycles(6), local).cost, 60);
+  EXPECT_EQ(solved(cube_cycles(7), local).cost, 144);
+  const std::pair<std::uint32_t, double> systems[] = {{9, 5}, {15, 9}, {27, 18}, {45, 30}, {81, 61}};
+  for (const auto& [points, best] : systems) EXPECT_EQ(solved(steiner_cover(points), local).cost, best);
+}
+
+TEST(SetCover, IsTheSameForAnyNumberOfThreads) {
+  const SetCoverProblem problem = disc_cover(300, 300, 0.3, 1);
+  std::vector<SetCover> covers;
+  for (const int threads : {1, 2, 3}) {
+    set_thread_count(threads);
+    covers.push_back(solved(problem, {2000, 2, 0, true}));
+  }
+  set_thread_count(0);
+  for (const SetCover& cover : covers) {
+    EXPECT_EQ(cover.chosen, covers[0].chosen);
+    EXPECT_EQ(cover.bound, covers[0].bound);
+    EXPECT_EQ(cover.exact, covers[0].exact);
+  }
+}
+
+TEST(SetCover, StopsByCountWhereTheTimeIsShort) {
+  const SetCoverProblem problem = steiner_cover(45);
+  const SetCover cover = solved(problem, {0, 0.02, 0, true});
+  expect_sound(problem, cover, "STS 45");
+  EXPECT_FALSE(cover.optimal);
+  EXPECT_GE(cover.bound, 15);  // of the linear relaxation
+  EXPECT_LE(cover.bound, 30);  // the optimum
+  EXPECT_EQ(cover.exact.rfind("stopped by its count of iterations", 0), 0U) << cover.exact;
+}
+
+TEST(SetCover, IsContentWithAGap) {
+  SetCoverOptions options{0, 5, 0.4, true};
+  const SetCover cover = solved(steiner_cover(27), options);
+  EXPECT_LE(cover.gap(), 0.4 + 1e-9);
+  EXPECT_LE(cover.bound, 18);
+  EXPECT_GE(cover.cost, 18);
 }
 
 TEST(SetCover, CoversNothingAtNoCost) {
