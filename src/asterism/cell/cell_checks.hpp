@@ -15,6 +15,10 @@ void check_platform_motion(const Cell& cell, const std::string& where);
 /// is inside it.
 void check_solids(const Cell& cell, const std::string& where);
 
+/// The scanner's distances and angles are in order, it is carried by a body that is there; passes are
+/// numbered, last a while and do not overlap.
+void check_scanner(const Cell& cell, const std::string& where);
+
 /// Complains in the words of `what`: "it moves with".
 void check_carrier(const std::string& body, const Cell& cell, const std::string& where, const char* what);
 

@@ -127,7 +127,7 @@ void check_cell(const Cell& cell, const std::string& where) {
   for (const Obstacle& obstacle : cell.obstacles) check_obstacle(obstacle, cell, where);
   check_solids(cell, where);
   check_platform_motion(cell, where);
-  if (cell.scanner) check_carrier(cell.scanner->body, cell, where + ": the scanner", "it is carried by");
+  check_scanner(cell, where);
   for (const TargetFault& fault : cell.faults) check_fault(fault, cell, where);
   check_lamps(cell, where);
   check_verification(cell.verification, cell, where);

@@ -45,6 +45,8 @@ Cell cell_of_toml(const std::filesystem::path& file, const toml::table& table) {
   if (root.has("platform")) cell.platform = platform_of(root.section("platform", "[platform]"));
   read_solids(root, places, cell);
   if (root.has("scanner")) cell.scanner = scanner_of(root.section("scanner", "[scanner]"));
+  for (const CellSection& one : root.sections("scan_pass", "a scan pass"))
+    cell.passes.push_back(scan_pass_of(one));
   read_part(root, "sensor", forms::sensor(), cell.sensor);
   read_part(root, "light", forms::light(), cell.light);
   read_part(root, "timing", forms::timing(), cell.timing);

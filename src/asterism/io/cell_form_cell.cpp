@@ -94,6 +94,13 @@ const Form& scanner() {
   return form;
 }
 
+const Form& scan_pass() {
+  static const Form form{"a scan pass",
+                         {needed(whole("scan", "its number")), needed(number("from_s", "it begins")),
+                          needed(number("to_s", "it ends"))}};
+  return form;
+}
+
 const Form& noise() {
   static const Form form{"[noise]", {}, options_of<NoiseModel>()};
   return form;
@@ -191,7 +198,9 @@ const Form& cell() {
        table("platform", {platform()}, "the body that turns the workpiece, and how far it goes"),
        table("workpiece", {workpiece_by_mesh(), workpiece_by_casing()}, "the part"),
        tables("fixture", fixtures(), "clamps, housings: what else hides targets, by mesh or shape"),
-       table("scanner", {scanner()}, "the 3-D scanner"), table("sensor", {sensor()}, "the cameras' sensors"),
+       table("scanner", {scanner()}, "the 3-D scanner"),
+       tables("scan_pass", {scan_pass()}, "when the scanner measures"),
+       table("sensor", {sensor()}, "the cameras' sensors"),
        table("light", {light()}, "what is bright and what is dark"),
        tables("lamp", {lamp()}, "lamps in view"), table("timing", {timing()}, "when pictures are taken"),
        table("noise", {noise()}, "how wrong everything is, for predictions"),

@@ -80,6 +80,7 @@ namespace forms {
 [[nodiscard]] const Form& fixture_by_casing();
 [[nodiscard]] const Form& casing();
 [[nodiscard]] const Form& scanner();
+[[nodiscard]] const Form& scan_pass();
 [[nodiscard]] const Form& noise();
 [[nodiscard]] const Form& fault();
 [[nodiscard]] const Form& lamp();

@@ -33,6 +33,11 @@ Scanner scanner_of(const CellSection& section) {
   return scanner;
 }
 
+ScanPass scan_pass_of(const CellSection& section) {
+  section.must_be(forms::scan_pass());
+  return {static_cast<int>(section.number("scan")), section.number("from_s"), section.number("to_s")};
+}
+
 TargetFault fault_of(const CellSection& section) {
   section.must_be(forms::fault());
   TargetFault fault;

@@ -74,6 +74,10 @@ focus_mm = 2000
 aperture_mm = 6
 [light]
 specular = 0.5
+[[scan_pass]]
+scan = 4
+from_s = 0.5
+to_s = 2
 )";
 const std::string kWedge = "OFF 4 4 0\n0 0 0\n10 0 0\n0 10 0\n0 0 10\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 
@@ -95,6 +99,10 @@ void expect_whole(const Cell& cell) {
   EXPECT_TRUE(facts_of(*cell.fixtures[1].surface).closed());
   EXPECT_EQ(cell.scanner->stand_off_mm, 250);
   EXPECT_LT((cell.scanner->body_from_scanner * Vec3(0, 0, 250) - Vec3(0, 0, -330)).norm(), 1e-12);
+  ASSERT_EQ(cell.passes.size(), 1U);
+  EXPECT_EQ(cell.passes[0].scan, 4);
+  EXPECT_EQ(cell.passes[0].from_s, 0.5);
+  EXPECT_EQ(cell.passes[0].to_s, 2);
   EXPECT_EQ(cell.noise.sigma_px, 0.2);
   ASSERT_EQ(cell.faults.size(), 2U);
   EXPECT_EQ(cell.faults[0].kind, FaultKind::Knocked);
@@ -154,6 +162,8 @@ TEST(ReadCell, SaysWhatIsWrongWithAPart) {
             "cell.toml:20: `unit` is `km`; it must be one of: mm, cm, m, inch");
   EXPECT_EQ(whole_complaint("unit = \"cm\"", "unit = \"m\"\nflip = true"),
             "cell.toml:19: wedge.off: the mesh is inside out when flipped; leave `flip` out");
+  EXPECT_TELLS(whole_complaint("scan = 4\n", ""), "a scan pass has no `scan`");
+  EXPECT_TELLS(whole_complaint("to_s = 2", "to_s = 0.5"), "scan pass 4: it ends at 0.5 s");
   EXPECT_TELLS(whole_complaint("unit = \"cm\"\n", ""),
                "cell.toml:19: wedge.off: a mesh file does not tell its unit");
   EXPECT_EQ(

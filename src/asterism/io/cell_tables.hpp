@@ -37,6 +37,7 @@ struct Places {
 
 [[nodiscard]] Platform platform_of(const CellSection& section);
 [[nodiscard]] Scanner scanner_of(const CellSection& section);
+[[nodiscard]] ScanPass scan_pass_of(const CellSection& section);
 [[nodiscard]] TargetFault fault_of(const CellSection& section);
 [[nodiscard]] Lamp lamp_of(const CellSection& section);
 [[nodiscard]] Verification verification_of(const CellSection& section);

@@ -140,6 +140,11 @@ std::string text_of(const Scanner& scanner) {
   return part("scanner", scanner) + fmt::format("pose = {}\n", toml_of(scanner.body_from_scanner));
 }
 
+std::string text_of(const ScanPass& pass) {
+  return fmt::format("\n[[scan_pass]]\nscan = {}\nfrom_s = {}\nto_s = {}\n", pass.scan, pass.from_s,
+                     pass.to_s);
+}
+
 std::string text_of(const TargetFault& fault) {
   std::string text = fmt::format("\n[[fault]]\nkind = \"{}\"\nbody = {}\ntarget = {}\ntime_s = {}\n",
                                  fault.kind == FaultKind::Knocked ? "knocked" : "falls-off",
@@ -177,6 +182,7 @@ void write_cell(const std::filesystem::path& file, const Cell& cell) {
   if (cell.platform) text += text_of(*cell.platform);
   text += solids_of(cell, file);
   if (cell.scanner) text += text_of(*cell.scanner);
+  for (const ScanPass& pass : cell.passes) text += text_of(pass);
   for (const TargetFault& fault : cell.faults) text += text_of(fault);
   for (const Lamp& lamp : cell.lamps) text += text_of(lamp);
   text += text_of(cell.verification);
