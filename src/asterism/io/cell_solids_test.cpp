@@ -163,7 +163,7 @@ TEST(ReadCell, SaysWhatIsWrongWithAPart) {
   EXPECT_EQ(whole_complaint("unit = \"cm\"", "unit = \"m\"\nflip = true"),
             "cell.toml:19: wedge.off: the mesh is inside out when flipped; leave `flip` out");
   EXPECT_TELLS(whole_complaint("scan = 4\n", ""), "a scan pass has no `scan`");
-  EXPECT_TELLS(whole_complaint("to_s = 2", "to_s = 0.5"), "scan pass 4: it ends at 0.5 s");
+  EXPECT_TELLS(whole_complaint("from_s = 0.5", "from_s = 2"), "scan pass 4: it ends at 2 s");
   EXPECT_TELLS(whole_complaint("unit = \"cm\"\n", ""),
                "cell.toml:19: wedge.off: a mesh file does not tell its unit");
   EXPECT_EQ(

@@ -13,12 +13,15 @@
 #include "asterism/io/body_file.hpp"
 #include "asterism/io/cell_file.hpp"
 #include "asterism/io/centre_table.hpp"
+#include "asterism/io/cloud_file.hpp"
 #include "asterism/io/csv_file.hpp"
 #include "asterism/io/image_file.hpp"
 #include "asterism/io/reading_table.hpp"
 #include "asterism/io/recording.hpp"
 #include "asterism/io/rig_file.hpp"
+#include "asterism/io/scan_folder.hpp"
 #include "asterism/simulation/read_out.hpp"
+#include "asterism/simulation/scan.hpp"
 
 namespace asterism {
 namespace {
@@ -106,11 +109,37 @@ void make_folders(const SimulateJob& job) {
   std::error_code error;
   std::filesystem::create_directories(job.out, error);
   // What an earlier run left would make a recording of two halves.
-  for (const char* old : {"frames.csv", "centres.csv", "read_out.csv"})
+  for (const char* old : {"frames.csv", "centres.csv", "read_out.csv", "scans.csv"})
     std::filesystem::remove(job.out / old, error);
   if (job.options.level == SimulationLevel::Centres) return;
   for (const char* side : {"left", "right"}) std::filesystem::create_directories(job.out / side, error);
   if (error) throw InputError(job.out.string(), "cannot be made: " + error.message());
+}
+
+/// Where the light of each point truly fell, in the workpiece's frame, point by point as in the scan.
+Cloud truth_of(const SimulatedScan& made) {
+  Cloud truth;
+  for (const Vec3f& point : made.true_in_workpiece) truth.points.emplace_back(point.cast<double>());
+  truth.fields.push_back({"outlier", {made.outlier.begin(), made.outlier.end()}});
+  return truth;
+}
+
+void write_scans(const Cell& cell, const SimulateJob& job, SimulatedRecording& counts,
+                 const Progress& progress) {
+  if (cell.passes.empty()) return;
+  const Stage stage = stage_of(cell);
+  std::vector<ScanEntry> entries;
+  for (const ScanPass& pass : cell.passes) {
+    const SimulatedScan made = simulate_scan(stage, pass, job.options.seed);
+    write_scan(job.out, made.scan);
+    write_cloud(job.out / ("truth_" + entry_of(made.scan).file), truth_of(made),
+                CloudFormat::BinaryLittleEndian, Coordinates::Single);
+    entries.push_back(entry_of(made.scan));
+    ++counts.scans;
+    counts.scan_points += made.scan.in_scanner.size();
+    progress("simulating scans", counts.scans, cell.passes.size());
+  }
+  write_scan_entries(job.out, entries);
 }
 
 void count_faults(const Cell& cell, SimulatedRecording& counts) {
@@ -154,6 +183,7 @@ SimulatedRecording simulate_recording(const Cell& cell, const SimulateJob& job, 
     }
     progress(doing, first + count, total);
   }
+  write_scans(cell, job, counts, progress);
   tables.finish();
   count_faults(cell, counts);
   return counts;

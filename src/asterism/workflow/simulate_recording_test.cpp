@@ -3,9 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
+#include "asterism/cell/occluders.hpp"
 #include "asterism/core/files_for_tests.hpp"
+#include "asterism/io/cell_file.hpp"
+#include "asterism/io/cloud_file.hpp"
 #include "asterism/io/image_file.hpp"
 #include "asterism/io/recording.hpp"
+#include "asterism/io/scan_folder.hpp"
 #include "asterism/simulation/test_cell.hpp"
 
 namespace asterism {
@@ -64,6 +70,39 @@ TEST(SimulateRecording, TellsWhatFellOffAndWhatWasKnocked) {
   // What the tracker is given still has every target where it was learnt.
   const Recording recording = open_recording(job.out);
   EXPECT_EQ(recording.bodies->at(0).targets.at(1).position, cell.movers[0].body.targets[1].position);
+}
+
+TEST(SimulateRecording, WritesScansWithTheirTruthPointByPoint) {
+  const TestFolder folder;
+  Cell cell = small_cell(8);
+  const RigidMotion platform = pose_at(cell.movers[0].motion, 0);
+  cell.movers[0].motion = at_rest(platform);
+  cell.workpiece =
+      Solid{"wall", std::make_shared<TriangleMesh>(mesh_of(Box{{500, 500, 20}})), "platform", {}, {}};
+  cell.movers.push_back(
+      {{"scanner", {{"S1", {0, 0, 0}, {}, {}, {}}}},
+       at_rest(platform * RigidMotion{exp_rotation({std::numbers::pi, 0, 0}), {0, 0, 310}})});
+  cell.scanner = Scanner{};
+  cell.passes = {{3, 0, 0.1}, {1, 0.1, 0.2}};
+  SimulateJob job{folder / "recording", {}};
+  job.options.level = SimulationLevel::Centres;
+  const SimulatedRecording made = simulate_recording(cell, job, no_progress);
+  EXPECT_EQ(made.scans, 2U);
+  const auto entries = read_scan_entries(job.out);
+  ASSERT_EQ(entries.size(), 2U);
+  EXPECT_EQ(entries[0].scan, 3);
+  std::size_t points = 0;
+  for (const ScanEntry& entry : entries) {
+    const Scan scan = read_scan(job.out, entry).scan;
+    const Cloud truth = read_cloud(job.out / ("truth_" + entry.file));
+    ASSERT_EQ(truth.size(), scan.in_scanner.size());
+    ASSERT_NE(truth.field("outlier"), nullptr);
+    points += truth.size();
+    for (const Vec3& point : truth.points) EXPECT_NEAR(point.z(), 10, 1e-3);
+  }
+  EXPECT_EQ(made.scan_points, points);
+  EXPECT_GT(points, 1000U);
+  EXPECT_EQ(read_cell(job.out / "cell.toml").passes.size(), 2U);
 }
 
 }  // namespace
