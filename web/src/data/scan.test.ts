@@ -10,7 +10,7 @@ import { deviationTable } from '../tables/scans';
 import { meshOfSolid, type Mesh } from './mesh';
 import { bitsOf, halfOf, shortsOf, signedBytesOf } from './packed';
 import { parseReport } from './parse';
-import { areaText, cloudOf, completeShare, coverageLevels, coverageSteps, coveredBy, drawnWords, pointWords, poseWords, samplesOf, tourPieces, Unpacked } from './scan';
+import { areaText, cloudOf, completeShare, coverageLevels, coverageSteps, coveredBy, drawnWords, pointWords, poseWords, tourPieces, Unpacked } from './scan';
 import type { DeviationSummary, PlannedView, ScanPlan, ScanReport } from './scan_report';
 import { firstScanSelection, modesOf, shadesOf } from './scan_selection';
 import { paintedSurface } from './surface_paint';
@@ -158,7 +158,7 @@ describe('a plan', () => {
     expect(coverageSteps(plan())).toEqual([0.3, 0.7, 0.9]);
     expect(coverageLevels(plan()).map((level) => level.share)).toEqual([1, 0.95, 0.9]);
     expect(coverageSteps({ ...plan(), surface_mm2: 0 })).toEqual([0, 0, 0]);
-    expect([...coveredBy(plan(), samplesOf(report().sample_lists[0]))]).toEqual([1, 1, 1]);
+    expect([...coveredBy(plan(), new Unpacked(report()))]).toEqual([1, 1, 1, 0, 0, 0, 0, 0]);
     expect(coverageAsCsv(plan())).toBe('views,share_of_surface,adds_mm2,platform_pose\n0,0.3,,\n1,0.7,40,1\n2,0.9,20,2\n');
   });
   it('is a tour of views, a turn between those of other poses, and the ways', () => {

@@ -44,6 +44,7 @@ export class Unpacked {
   private samples = new Map<number, Samples>();
   private clouds = new Map<number, Cloud | null>();
   private holes = new Map<Hole, Uint32Array>();
+  private flags = new Map<string, Uint8Array>();
 
   constructor(private report: ScanReport) {}
 
@@ -60,17 +61,23 @@ export class Unpacked {
     return this.clouds.get(round)!;
   }
 
+  /// What is told of each sample by a bit.
+  bits(packed: string): Uint8Array {
+    if (!this.flags.has(packed)) this.flags.set(packed, bitsOf(packed));
+    return this.flags.get(packed)!;
+  }
+
   samplesOfHole(hole: Hole): Uint32Array {
     if (!this.holes.has(hole)) this.holes.set(hole, countsOf(hole.samples));
     return this.holes.get(hole)!;
   }
 }
 
-/// A character a sample: 1 = one of the plan's views measures it, or it was measured before.
-export function coveredBy(plan: ScanPlan, samples: Samples): Uint8Array {
-  const covered = bitsOf(plan.covered_before);
-  for (const view of plan.views) bitsOf(view.measures).forEach((bit, i) => (covered[i] |= bit));
-  return covered.slice(0, samples.count);
+/// By sample: 1 = one of the plan's views measures it, or it was measured before.
+export function coveredBy(plan: ScanPlan, data: Unpacked): Uint8Array {
+  const covered = Uint8Array.from(data.bits(plan.covered_before));
+  for (const view of plan.views) data.bits(view.measures).forEach((bit, i) => (covered[i] |= bit));
+  return covered;
 }
 
 /// Share of the whole surface that is covered after 0, 1, 2 … views.

@@ -33,12 +33,12 @@ function cut({ positions, corners }: Mesh, longest: number): Float32Array | null
     while (open.length > 0) {
       const own = open.pop()!;
       const sides = [0, 3, 6].map((a) => Math.hypot(own[a] - own[(a + 3) % 9], own[a + 1] - own[((a + 3) % 9) + 1], own[a + 2] - own[((a + 3) % 9) + 2]));
-      const most_ = Math.max(...sides);
-      if (!(most_ > longest)) {
+      const length = Math.max(...sides);
+      if (!(length > longest)) {
         pieces.push(...own);
         continue;
       }
-      const a = 3 * sides.indexOf(most_);
+      const a = 3 * sides.indexOf(length);
       const [b, c] = [(a + 3) % 9, (a + 6) % 9];
       const [p, q, r] = [a, b, c].map((i) => own.slice(i, i + 3));
       const middle = p.map((value, k) => (value + q[k]) / 2);
@@ -51,27 +51,29 @@ function cut({ positions, corners }: Mesh, longest: number): Float32Array | null
 
 /// Looks samples up by cubes of the grid about a piece's middle.
 function sampleGrid({ count, places, normals }: Samples, cell: number): (positions: Float32Array, at: number) => number {
-  const cubes = new Map<string, number[]>();
-  const key = (x: number, y: number, z: number) => `${x},${y},${z}`;
-  const step = (value: number) => Math.floor(value / cell);
+  const side = (k: number, pick: (a: number, b: number) => number, start: number) => places.reduce((found, value, i) => (i % 3 === k ? pick(found, value) : found), start);
+  const low = [0, 1, 2].map((k) => side(k, Math.min, Infinity) - cell);
+  const [nx, ny, nz] = [0, 1, 2].map((k) => Math.ceil((side(k, Math.max, -Infinity) + cell - low[k]) / cell) + 1);
+  const step = (value: number, k: number) => Math.floor((value - low[k]) / cell);
+  const key = (x: number, y: number, z: number) => (x * ny + y) * nz + z;
+  const cubes = new Map<number, number[]>();
   for (let i = 0; i < count; ++i) {
-    const name = key(step(places[3 * i]), step(places[3 * i + 1]), step(places[3 * i + 2]));
+    const name = key(step(places[3 * i], 0), step(places[3 * i + 1], 1), step(places[3 * i + 2], 2));
     const own = cubes.get(name);
     if (own) own.push(i);
     else cubes.set(name, [i]);
   }
   return (p, at) => {
-    const middle = [0, 1, 2].map((k) => (p[at + k] + p[at + 3 + k] + p[at + 6 + k]) / 3);
-    const [u, v] = [3, 6].map((other) => [0, 1, 2].map((k) => p[at + other + k] - p[at + k]));
-    const normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-    const size = 127 * Math.hypot(...normal) || 1;
-    const [x, y, z] = middle.map(step);
+    const [mx, my, mz] = [0, 1, 2].map((k) => (p[at + k] + p[at + 3 + k] + p[at + 6 + k]) / 3);
+    const [ux, uy, uz, vx, vy, vz] = [3, 4, 5, 6, 7, 8].map((i) => p[at + i] - p[at + (i % 3)]);
+    const [x, y, z] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
+    const least_turn = kTurned * 127 * Math.hypot(x, y, z);
+    const [cx, cy, cz] = [step(mx, 0), step(my, 1), step(mz, 2)];
     let [best, least] = [-1, Infinity];
-    for (let dx = -1; dx <= 1; ++dx) for (let dy = -1; dy <= 1; ++dy) for (let dz = -1; dz <= 1; ++dz) {
-      for (const i of cubes.get(key(x + dx, y + dy, z + dz)) ?? []) {
-        const off = (places[3 * i] - middle[0]) ** 2 + (places[3 * i + 1] - middle[1]) ** 2 + (places[3 * i + 2] - middle[2]) ** 2;
-        if (off >= least || normals[3 * i] * normal[0] + normals[3 * i + 1] * normal[1] + normals[3 * i + 2] * normal[2] < kTurned * size) continue;
-        [best, least] = [i, off];
+    for (let a = Math.max(0, cx - 1); a <= Math.min(nx - 1, cx + 1); ++a) for (let b = Math.max(0, cy - 1); b <= Math.min(ny - 1, cy + 1); ++b) for (let c = Math.max(0, cz - 1); c <= Math.min(nz - 1, cz + 1); ++c) {
+      for (const i of cubes.get(key(a, b, c)) ?? []) {
+        const off = (places[3 * i] - mx) ** 2 + (places[3 * i + 1] - my) ** 2 + (places[3 * i + 2] - mz) ** 2;
+        if (off < least && normals[3 * i] * x + normals[3 * i + 1] * y + normals[3 * i + 2] * z >= least_turn) [best, least] = [i, off];
       }
     }
     return best;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { decimals, significant } from '../data/format';
-import { bitsOf } from '../data/packed';
 import type { Vec3 } from '../data/parts';
-import { pointAt, pointWords, type Unpacked } from '../data/scan';
+import { areaText, pointAt, pointWords, type Unpacked } from '../data/scan';
 import type { ScanReport } from '../data/scan_report';
 import type { ScanSelection } from '../data/scan_selection';
 import type { Shared } from '../data/selection';
@@ -62,7 +61,7 @@ export function scanPointer(report: ScanReport, data: Unpacked, shared: Shared<S
   });
   shared.watch((now, before) => {
     if (now.mode !== before.mode) forget();
-    if (now.mode !== before.mode || now.frame !== before.frame || now.view !== before.view) words.textContent = viewWords(report, now) || hint(now);
+    if (now.mode !== before.mode || now.frame !== before.frame || now.view !== before.view || now.hole !== before.hole) words.textContent = chosenWords(report, now) || hint(now);
   });
   words.textContent = hint(shared.now);
   return {
@@ -100,8 +99,10 @@ function hint({ mode }: ScanSelection): string {
   }[mode];
 }
 
-/// The chosen view in words.
-function viewWords(report: ScanReport, { mode, frame, view }: ScanSelection): string {
+/// The chosen view or hole in words.
+function chosenWords(report: ScanReport, { mode, frame, view, hole }: ScanSelection): string {
+  const missing = mode === 'completeness' && hole !== null ? report.rounds[frame]?.completeness?.holes[hole] : undefined;
+  if (missing) return `Hole ${hole! + 1}: ${areaText(missing.area_mm2)}, ${decimals(missing.across_mm, 0)} mm across, about x ${decimals(missing.centre?.[0], 0)}  y ${decimals(missing.centre?.[1], 0)}  z ${decimals(missing.centre?.[2], 0)} mm`;
   const one = mode === 'plan' && view !== null ? report.rounds[frame]?.plan?.views[view] : undefined;
   if (!one) return '';
   return `View ${view! + 1}: mean incidence ${decimals(one.mean_incidence_deg, 1)}°, ${one.worst_sigma_mm === null ? 'σ not determined' : `worst σ ${significant(one.worst_sigma_mm, 3)} mm`}, the tracker sees ${one.scanner_targets} targets of the scanner and ${one.platform_targets} of the platform, starts at ${decimals(one.starts_s, 1)} s`;
@@ -111,13 +112,13 @@ function spotWords(report: ScanReport, data: Unpacked, now: ScanSelection, { poi
   const { plan, completeness } = report.rounds[now.frame] ?? {};
   const cloud = data.cloudOf(now.frame);
   if (point !== null && cloud) return pointWords(cloud, point);
-  if (sample === null) return viewWords(report, now);
+  if (sample === null) return chosenWords(report, now);
   if (now.mode === 'plan' && plan) {
-    const by = plan.views.flatMap((view, i) => (bitsOf(view.measures)[sample] ? [i + 1] : []));
-    const before = bitsOf(plan.covered_before)[sample] ? 'measured before' : '';
+    const by = plan.views.flatMap((view, i) => (data.bits(view.measures)[sample] ? [i + 1] : []));
+    const before = data.bits(plan.covered_before)[sample] ? 'measured before' : '';
     return [by.length === 0 ? (before ? '' : 'no view measures this place') : by.length === 1 ? `measured by view ${by[0]}` : `measured by ${by.length} views: ${by.join(', ')}`, before].filter(Boolean).join('; ');
   }
   if (now.mode !== 'completeness' || !completeness) return '';
   const hole = holeOf(report, data, now.frame, sample);
-  return bitsOf(completeness.measured)[sample] ? 'measured' : hole === null ? 'not measured' : `not measured: hole ${hole + 1}`;
+  return data.bits(completeness.measured)[sample] ? 'measured' : hole === null ? 'not measured' : `not measured: hole ${hole + 1}`;
 }

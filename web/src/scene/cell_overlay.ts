@@ -22,6 +22,7 @@ export function written(context: CanvasRenderingContext2D, text: string, x: numb
 export function drawColourBar(context: CanvasRenderingContext2D, height: number, [low, high]: [number, number], title: string, limits: { label: string; value: number }[], colourOf: (part: number) => string = ramp): void {
   const left = 16;
   const bottom = height - 18;
+  plate(context, left, bottom, title, limits);
   const at = (value: number) => bottom - (high > low ? (value - low) / (high - low) : 0.5) * kHeight;
   for (let i = 0; i < kHeight; ++i) {
     context.fillStyle = colourOf((i + 0.5) / kHeight);
@@ -47,6 +48,21 @@ export function drawColourBar(context: CanvasRenderingContext2D, height: number,
     context.fillRect(left - 4, at(limit.value) - 1, kWidth + 8, 2);
     written(context, limit.label, left + kWidth + 52, at(limit.value) + 4, colour('--flag'));
   }
+}
+
+/// A ground under the bar and its words, so that what is drawn there does not run through them.
+function plate(context: CanvasRenderingContext2D, left: number, bottom: number, title: string, limits: { label: string }[]): void {
+  context.font = '600 11px system-ui, sans-serif';
+  const wide = Math.max(context.measureText(title).width, 58, ...limits.map(({ label }) => kWidth + 52 + context.measureText(label).width));
+  ground(context, left - 8, bottom - kHeight - 28, wide + 16, kHeight + 38);
+}
+
+/// Nearly covers what is drawn there.
+export function ground(context: CanvasRenderingContext2D, left: number, top: number, width: number, height: number): void {
+  context.globalAlpha = 0.84;
+  context.fillStyle = colour('--panel');
+  context.fillRect(left, top, width, height);
+  context.globalAlpha = 1;
 }
 
 /// One or two places that were picked, and between them their distance.

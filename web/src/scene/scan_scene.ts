@@ -2,7 +2,6 @@
 import * as THREE from 'three';
 import { percent } from '../data/format';
 import type { Mesh } from '../data/mesh';
-import { bitsOf } from '../data/packed';
 import type { Vec3 } from '../data/parts';
 import { apply, motionOf } from '../data/pose';
 import { areaText, completeShare, coveredBy, type Samples, type Unpacked } from '../data/scan';
@@ -11,7 +10,7 @@ import type { CloudShade, ScanSelection } from '../data/scan_selection';
 import { colour } from '../dom';
 import { bodyColour } from '../plots/figures';
 import { tintsOf, type Shade } from '../plots/shades';
-import { drawColourBar, drawMeasure, written } from './cell_overlay';
+import { drawColourBar, drawMeasure, ground, written } from './cell_overlay';
 import { solidView, type SolidLook } from './cell_solids';
 import { cloudPoints, type CloudPoints } from './cloud_points';
 import type { Label } from './labels';
@@ -83,11 +82,7 @@ export function scanScene(report: ScanReport, data: Unpacked, mesh: Mesh | null,
   const overlay = (context: CanvasRenderingContext2D, _: number, height: number) => {
     const scale = now.mode === 'cloud' && round()?.cloud ? shadeOf(now.shade) : null;
     if (scale) drawColourBar(context, height, [scale.low, scale.high], scale.title, scale.marks, (part) => scale.colour(scale.low + part * (scale.high - scale.low)));
-    context.textAlign = 'left';
-    context.font = '600 13px system-ui, sans-serif';
-    if (report.rounds.length > 0) written(context, `${now.frame + 1}  ${round().name}`, 14, 22, colour('--ink'));
-    context.font = '12px system-ui, sans-serif';
-    written(context, factsOf(report, now), 14, 40, colour('--muted'));
+    caption(context, report.rounds.length > 0 ? `${now.frame + 1}  ${round().name}` : '', factsOf(report, now));
     const places = marked.measured.map((place) => stage.project(place));
     drawMeasure(context, places, marked.text);
     const at = marked.hovered && stage.project(marked.hovered);
@@ -178,6 +173,21 @@ export function scanScene(report: ScanReport, data: Unpacked, mesh: Mesh | null,
   };
 }
 
+/// Which round it is and what it is worth, at the left top.
+function caption(context: CanvasRenderingContext2D, title: string, facts: string): void {
+  const lines = [{ text: title, font: '600 13px system-ui, sans-serif', y: 22, ink: '--ink' }, { text: facts, font: '12px system-ui, sans-serif', y: 40, ink: '--muted' }];
+  const wide = Math.max(...lines.map(({ text, font }) => {
+    context.font = font;
+    return context.measureText(text).width;
+  }));
+  ground(context, 6, 6, wide + 16, facts ? 42 : 24);
+  context.textAlign = 'left';
+  for (const { text, font, y, ink } of lines) {
+    context.font = font;
+    written(context, text, 14, y, colour(ink));
+  }
+}
+
 function factsOf(report: ScanReport, now: ScanSelection): string {
   const round = report.rounds[now.frame];
   if (!round) return 'There are no rounds.';
@@ -192,13 +202,13 @@ function sampleColours(report: ScanReport, now: ScanSelection, data: Unpacked): 
   const { plan, completeness } = report.rounds[now.frame];
   const [measured, missing, lit] = [colour('--measured'), colour('--missing'), colour('--lit')];
   if (now.mode === 'plan' && plan) {
-    const covered = coveredBy(plan, data.samplesAt(plan.samples)!);
+    const covered = coveredBy(plan, data);
     const view = now.view === null ? undefined : plan.views[now.view];
-    const own = view && bitsOf(view.measures);
+    const own = view && data.bits(view.measures);
     return (i) => (own?.[i] ? lit : covered[i] ? (own ? null : measured) : missing);
   }
   if (!completeness) return () => null;
-  const bits = bitsOf(completeness.measured);
+  const bits = data.bits(completeness.measured);
   const hole = now.hole === null ? undefined : completeness.holes[now.hole];
   const own = new Set(hole ? data.samplesOfHole(hole) : []);
   return (i) => (own.has(i) ? lit : bits[i] ? measured : missing);
