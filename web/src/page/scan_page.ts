@@ -28,7 +28,7 @@ const kKeys = '← → go from round to round, with Shift from view to view, Esc
 export function scanPage(report: ScanReport): PageContent {
   const shared = new Shared<ScanSelection>(firstScanSelection(report));
   const data = new Unpacked(report);
-  const remarks = [...report.remarks, ...report.rounds.flatMap((round, i) => (round.plan?.remarks ?? []).map((remark) => `Round ${i + 1}: ${remark}`))];
+  const remarks = [...new Set([...report.remarks, ...report.rounds.flatMap((round) => round.plan?.remarks ?? [])])];
   const summary = summarySection(report.summary, remarks, 'What to beware of', report.rounds.length > 0 ? 'Nothing.' : 'There are no rounds.');
   const options = optionSection(report.options, null, kReading, report.scanner);
   const charts = report.charts.map(chartView);

@@ -141,8 +141,13 @@ export function stageOf(words: string, radius: number, labels: () => Label[], ov
   };
   // Where a place of the tracker is on the screen, for who drives the page by script.
   Object.assign(drawing, { project });
-  controls.addEventListener('start', () => (fitted = null));
-  controls.addEventListener('change', request);
+  let held = false;
+  controls.addEventListener('start', () => (held = true));
+  controls.addEventListener('end', () => (held = false));
+  controls.addEventListener('change', () => {
+    if (held) fitted = null;
+    request();
+  });
   new ResizeObserver(refresh).observe(element);
   return {
     element, scene, inks, request, stand, see, project, rayAt, onClick, onHover, refresh,
