@@ -32,6 +32,7 @@ void add_reproduce(CLI::App& root, Common& common);
 void add_layout(CLI::App& root, Common& common);
 void add_schema(CLI::App& root, Common& common);
 void add_verify(CLI::App& root, Common& common);
+void add_plan(CLI::App& root, Common& common);
 void add_suggest_layout(CLI::App& layout, Common& common);  // under `layout`
 
 }  // namespace asterism::app

@@ -70,9 +70,9 @@ LimitMask failing(const Frame& frame, const SurfaceSample& sample) {
   if (!(std::abs(p.x()) <= frame.tan_x * p.z() && std::abs(p.y()) <= frame.tan_y * p.z())) {
     fails |= mask_of(ScanLimit::Field);
   }
-  if (!(faces(sample, frame.origin, frame.min_cosine) && faces(sample, frame.left_eye, kGrazing) &&
-        faces(sample, frame.right_eye, kGrazing))) {
-    fails |= mask_of(ScanLimit::Incidence);
+  if (!faces(sample, frame.origin, frame.min_cosine)) fails |= mask_of(ScanLimit::Incidence);
+  if (!(faces(sample, frame.left_eye, kGrazing) && faces(sample, frame.right_eye, kGrazing))) {
+    fails |= mask_of(ScanLimit::Sight);
   }
   return fails;
 }
@@ -122,7 +122,7 @@ BitRows measured_samples(std::span<const Viewpoint> views, std::span<const Surfa
                          const Scanner& scanner, const RayScene& hiding, const AskedLimits& asked) {
   const std::vector<Block> blocks = blocks_of(samples);
   LimitMask counts = 0;
-  for (const ScanLimit limit : {ScanLimit::Range, ScanLimit::Field, ScanLimit::Incidence}) {
+  for (const ScanLimit limit : {ScanLimit::Range, ScanLimit::Field, ScanLimit::Incidence, ScanLimit::Sight}) {
     if (asked[limit]) counts |= mask_of(limit);
   }
   BitRows rows(views.size(), samples.size());

@@ -30,9 +30,10 @@ using LimitMask = std::uint32_t;
 /// ACM Computing Surveys 35 (2003) 64). With z the place's depth in the scanner's frame:
 ///   range      near ≤ z ≤ far
 ///   field      |x| ≤ z width / (2 stand-off), |y| likewise
-///   incidence  between the normal and the way to the scanner's origin at most its largest; and neither
-///              projector nor camera sees the place at more than 85°
-///   sight      nothing lies between the place and the projector (x = −baseline/2), nor the camera (+)
+///   incidence  at most its largest, between the normal and the way to the scanner's origin
+///   sight      projector (x = −baseline/2) and camera (+) stand before the surface, seen at less than 85°,
+///              and nothing lies between
+/// All that can be told of one sample without asking what lies between.
 [[nodiscard]] LimitMask failing_limits(const Scanner& scanner, const RigidMotion& scanner_from_workpiece,
                                        const SurfaceSample& sample);
 

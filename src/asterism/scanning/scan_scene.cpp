@@ -9,7 +9,9 @@ namespace {
 
 int scanner_carrier(const Cell& cell) { return cell.scanner ? mover_index(cell, cell.scanner->body) : -1; }
 
-TriangleMesh fixtures_of(const Cell& cell) {
+}  // namespace
+
+TriangleMesh fixtures_on_part(const Cell& cell) {
   const int carrier = mover_index(cell, cell.workpiece->body);
   const RigidMotion workpiece_from_carrier = cell.workpiece->carrier_from_solid.inverse();
   TriangleMesh all;
@@ -20,11 +22,9 @@ TriangleMesh fixtures_of(const Cell& cell) {
   return all;
 }
 
-}  // namespace
-
 ScanScene scan_scene_of(const Cell& cell) {
   if (!cell.workpiece) throw InputError("the cell has no [workpiece]; there is nothing to scan");
-  const TriangleMesh fixtures = fixtures_of(cell);
+  const TriangleMesh fixtures = fixtures_on_part(cell);
   return {RayScene(*cell.workpiece->surface), RayScene(fixtures), SurfaceTree(*cell.workpiece->surface),
           SurfaceTree(fixtures)};
 }

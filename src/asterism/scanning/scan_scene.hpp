@@ -17,6 +17,9 @@ struct ScanScene {
 /// Throws InputError for a cell without workpiece.
 [[nodiscard]] ScanScene scan_scene_of(const Cell& cell);
 
+/// All that moves with the part but the part itself, in its frame.
+[[nodiscard]] TriangleMesh fixtures_on_part(const Cell& cell);
+
 /// What does not move with the part nor with the scanner, in the tracker's frame, other bodies where they
 /// begin.
 [[nodiscard]] TriangleMesh surroundings_of(const Cell& cell);

@@ -45,8 +45,9 @@ TEST(SampleSurface, LeavesNoPartOfALargeTriangleOut) {
 }
 
 TEST(SampleSurface, TakesTheWeightOfTheLaterRegion) {
-  const std::vector<ScanRegion> regions = {{"upper half", Box{{400, 400, 300}}, {{}, {0, 0, 300}}, 3},
-                                           {"top", Box{{400, 400, 20}}, {{}, {0, 0, 300}}, 0}};
+  const std::vector<ScanRegion> regions = {
+      {"upper half", Box{{400, 400, 300}}, {Quaternion::Identity(), {0, 0, 300}}, 3},
+      {"top", Box{{400, 400, 20}}, {Quaternion::Identity(), {0, 0, 300}}, 0}};
   for (const SurfaceSample& sample : sample_surface(drum(), 500, regions, 1)) {
     const double expected = sample.at.z() > 290 ? 0 : sample.at.z() > 150 ? 3 : 1;
     EXPECT_EQ(sample.weight, expected) << sample.at.z();

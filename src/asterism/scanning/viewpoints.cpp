@@ -147,7 +147,7 @@ RingPattern rings_around(std::span<const SurfaceSample> samples, double stand_of
   pattern.slope = spread > 1e-9 * n * n ? (n * rz - z1 * r1) / spread : 0;
   const double at_zero = n > 0 ? (r1 - pattern.slope * z1) / n : 0;
   pattern.radius_mm = at_zero + stand_off_mm * std::hypot(1.0, pattern.slope);
-  const auto rings = std::max(1.0, std::ceil((high - low) / pitch_mm));
+  const auto rings = std::max(1.0, std::ceil((high - low) / pitch_mm - 1e-6));
   for (double i = 0; i < rings; i += 1) {
     pattern.heights_mm.push_back(low + (i + 0.5) * (high - low) / rings);
   }
