@@ -50,6 +50,8 @@ class RowWeighting {
         column_changed_(model.columns(), 0),
         row_changed_(model.rows(), 1),
         open_(model.group_cost.size(), 0),
+        all_cost_alike_(!model.has_groups() && std::all_of(model.cost.begin(), model.cost.end(),
+                                                           [&](double c) { return c == model.cost[0]; })),
         short_weight_(model.total),
         best_(start.begin(), start.end()),
         best_cost_(cost_of(model, start)) {
@@ -77,10 +79,12 @@ class RowWeighting {
       just_put_in_.push_back(in);
     }
     if (is_cover()) return;
-    for (const std::uint32_t i : short_.numbers()) {
-      heaviness_[i] += 1;
-      for (const std::uint32_t j : model_.columns_of[i]) score_[j] += 1;
+    if (!model_.is_partial()) {
+      for (const std::uint32_t i : short_.numbers()) make_heavier(i);
+      return;
     }
+    const auto& rows = short_.numbers();  // most may stay short: one at random is enough
+    make_heavier(rows[random_.below(static_cast<std::uint32_t>(rows.size()))]);
   }
 
   [[nodiscard]] const std::vector<std::uint32_t>& best() const { return best_; }
@@ -88,6 +92,11 @@ class RowWeighting {
 
  private:
   [[nodiscard]] bool is_cover() const { return short_weight_ <= model_.total - model_.target; }
+
+  void make_heavier(std::uint32_t row) {
+    heaviness_[row] += 1;
+    for (const std::uint32_t j : model_.columns_of[row]) score_[j] += 1;
+  }
 
   void keep_best() {
     const double cost = cost_of(model_, chosen_.numbers());
@@ -98,6 +107,7 @@ class RowWeighting {
 
   /// What the column costs beyond the others that are chosen.
   [[nodiscard]] double cost(std::uint32_t column) const {
+    if (all_cost_alike_) return model_.cost[0];
     const std::uint32_t group = model_.group[column];
     if (group == kNoGroup) return model_.cost[column];
     const int others = open_[group] - (chosen_.has(column) ? 1 : 0);
@@ -194,6 +204,7 @@ class RowWeighting {
   std::vector<int> count_;               // by row
   std::vector<std::int64_t> column_changed_, row_changed_;
   std::vector<int> open_;  // by group: chosen columns
+  bool all_cost_alike_;
   std::int64_t time_ = 1;
   std::int64_t short_weight_;
   double cost_ = 0;
