@@ -19,6 +19,12 @@ void check_solids(const Cell& cell, const std::string& where);
 /// numbered, last a while and do not overlap.
 void check_scanner(const Cell& cell, const std::string& where);
 
+/// What is asked of a plan of views: options within their limits, regions that are solids, each named once.
+void check_scan_task(const Cell& cell, const std::string& where);
+
+/// An arm has joints that turn some way about an axis, links of some thickness, and a scanner to carry.
+void check_robot(const Cell& cell, const std::string& where);
+
 /// Complains in the words of `what`: "it moves with".
 void check_carrier(const std::string& body, const Cell& cell, const std::string& where, const char* what);
 

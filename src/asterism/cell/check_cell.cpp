@@ -128,6 +128,8 @@ void check_cell(const Cell& cell, const std::string& where) {
   check_solids(cell, where);
   check_platform_motion(cell, where);
   check_scanner(cell, where);
+  check_scan_task(cell, where);
+  check_robot(cell, where);
   for (const TargetFault& fault : cell.faults) check_fault(fault, cell, where);
   check_lamps(cell, where);
   check_verification(cell.verification, cell, where);

@@ -7,6 +7,7 @@
 #include "asterism/io/builtin_cells.hpp"
 #include "asterism/io/cell_layout.hpp"
 #include "asterism/io/cell_parts.hpp"
+#include "asterism/io/cell_scan.hpp"
 #include "asterism/io/cell_tables.hpp"
 
 namespace asterism {
@@ -45,6 +46,8 @@ Cell cell_of_toml(const std::filesystem::path& file, const toml::table& table) {
   if (root.has("platform")) cell.platform = platform_of(root.section("platform", "[platform]"));
   read_solids(root, places, cell);
   if (root.has("scanner")) cell.scanner = scanner_of(root.section("scanner", "[scanner]"));
+  if (root.has("scan")) cell.scan_task = scan_task_of(root.section("scan", "[scan]"));
+  if (root.has("robot")) cell.robot = robot_of(root.section("robot", "[robot]"), places);
   for (const CellSection& one : root.sections("scan_pass", "a scan pass"))
     cell.passes.push_back(scan_pass_of(one));
   read_part(root, "sensor", forms::sensor(), cell.sensor);

@@ -200,6 +200,8 @@ const Form& cell() {
        tables("fixture", fixtures(), "clamps, housings: what else hides targets, by mesh or shape"),
        table("scanner", {scanner()}, "the 3-D scanner"),
        tables("scan_pass", {scan_pass()}, "when the scanner measures"),
+       table("scan", {scan()}, "what is asked of a plan of views"),
+       table("robot", {robot()}, "the arm that carries the scanner"),
        table("sensor", {sensor()}, "the cameras' sensors"),
        table("light", {light()}, "what is bright and what is dark"),
        tables("lamp", {lamp()}, "lamps in view"), table("timing", {timing()}, "when pictures are taken"),

@@ -81,6 +81,11 @@ namespace forms {
 [[nodiscard]] const Form& casing();
 [[nodiscard]] const Form& scanner();
 [[nodiscard]] const Form& scan_pass();
+[[nodiscard]] const Form& scan();
+[[nodiscard]] const Form& scan_region();
+[[nodiscard]] const Form& robot();
+[[nodiscard]] const Form& robot_joint();
+[[nodiscard]] const Form& robot_link();
 [[nodiscard]] const Form& noise();
 [[nodiscard]] const Form& fault();
 [[nodiscard]] const Form& lamp();

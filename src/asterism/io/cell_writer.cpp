@@ -4,6 +4,7 @@
 #include "asterism/core/output_file.hpp"
 #include "asterism/io/cell_file.hpp"
 #include "asterism/io/cell_layout.hpp"
+#include "asterism/io/cell_scan.hpp"
 #include "asterism/io/cell_text.hpp"
 #include "asterism/io/mesh_file.hpp"
 
@@ -182,6 +183,8 @@ void write_cell(const std::filesystem::path& file, const Cell& cell) {
   if (cell.platform) text += text_of(*cell.platform);
   text += solids_of(cell, file);
   if (cell.scanner) text += text_of(*cell.scanner);
+  text += part("scan", cell.scan_task) + rest_of(cell.scan_task);
+  if (cell.robot) text += text_of(*cell.robot);
   for (const ScanPass& pass : cell.passes) text += text_of(pass);
   for (const TargetFault& fault : cell.faults) text += text_of(fault);
   for (const Lamp& lamp : cell.lamps) text += text_of(lamp);
