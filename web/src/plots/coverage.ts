@@ -12,6 +12,8 @@ import { tickText, ticks } from './svg';
 
 const kHeight = 250;
 const [kLeft, kRight, kTop, kBottom] = [48, 138, 22, 40];
+const kNameWidth = 72;  // px, about, of a mark's name
+const kMany = 40;       // views: their dots are smaller
 
 export function coverageAsCsv(plan: ScanPlan): string {
   return csv(['views', 'share_of_surface', 'adds_mm2', 'platform_pose'], coverageSteps(plan).map((share, i) => [i, share, plan.views[i - 1]?.adds_mm2, plan.views[i - 1] && plan.views[i - 1].platform + 1]));
@@ -27,7 +29,9 @@ export function coveragePlot(plan: ScanPlan, width: number, chosen: number | nul
   ];
   const most = Math.max(1, shares.length - 1, ...marks.map((mark) => mark.at));
   const x = chartAxis([0, most], false, kLeft, width - kRight, false);
-  const y = (share: number) => kHeight - kBottom - share * (kHeight - kTop - kBottom);
+  // A rescan begins where much is measured already: its axis begins below that.
+  const foot = shares[0] > 0.5 ? Math.floor(10 * shares[0] - 0.5) / 10 : 0;
+  const y = (share: number) => kHeight - kBottom - ((share - foot) / (1 - foot)) * (kHeight - kTop - kBottom);
   const text = (content: string, attributes: Record<string, string | number>) => svg('text', { fill: 'var(--muted)', ...attributes }, content);
   const levels = coverageLevels(plan).map((level) => ({ ...level, y: y(level.share) }));
   const last = shares[shares.length - 1];
@@ -38,20 +42,27 @@ export function coveragePlot(plan: ScanPlan, width: number, chosen: number | nul
     width, height: kHeight, viewBox: `0 0 ${width} ${kHeight}`, role: 'img', 'font-size': 11, 'font-family': 'system-ui, sans-serif',
     'aria-label': `Coverage against number of views: ${named.map((name) => name.text).join(', ')}. ${plan.in_words}`,
   },
-  ...[0, 0.25, 0.5, 0.75, 1].flatMap((share) => [svg('path', { d: `M${kLeft} ${y(share)}H${width - kRight}`, stroke: 'var(--grid)' }), text(`${100 * share} %`, { x: kLeft - 6, y: y(share) + 4, 'text-anchor': 'end' })]),
+  ...ticks(100 * foot, 100).map((tick) => tick / 100).flatMap((share) => [svg('path', { d: `M${kLeft} ${y(share)}H${width - kRight}`, stroke: 'var(--grid)' }), text(`${tickText(100 * share)} %`, { x: kLeft - 6, y: y(share) + 4, 'text-anchor': 'end' })]),
   ...ticks(0, most).filter(Number.isInteger).flatMap((tick) => [svg('path', { d: `M${x.at(tick)} ${kHeight - kBottom}v4`, stroke: 'var(--muted)' }), text(tickText(tick), { x: x.at(tick), y: kHeight - kBottom + 16, 'text-anchor': 'middle' })]),
   text('number of views', { x: (kLeft + width - kRight) / 2, y: kHeight - 6, 'text-anchor': 'middle' }),
   ...levels.map((level) => svg('path', { d: `M${kLeft} ${level.y}H${width - kRight}`, stroke: 'var(--flag)', 'stroke-dasharray': '6 4', fill: 'none' })),
   ...marks.map((mark, i) => svg('g', {},
     svg('path', { d: `M${x.at(mark.at)} ${kTop - 4}V${kHeight - kBottom}`, stroke: 'var(--muted)', 'stroke-dasharray': mark.dash }),
-    text(mark.text, { x: x.at(mark.at) + (i === 0 ? -3 : 3), y: kTop - 8, 'text-anchor': i === 0 && marks.length > 1 ? 'end' : x.at(mark.at) > width - kRight - 50 ? 'end' : 'start' }))),
+    text(mark.text, nameOf(marks.map((one) => x.at(one.at)), i, width)))),
   svg('path', { d, fill: 'none', stroke: 'var(--ink)', 'stroke-width': 1.4 }),
   ...plan.views.map((view, i) => svg('circle', {
-    cx: x.at(i + 1), cy: y(shares[i + 1]), r: i === chosen ? 5.5 : 3.4, class: 'pick', fill: i === chosen ? 'var(--lit)' : `var(${bodyColour(view.platform)})`, stroke: i === chosen ? 'var(--ink)' : 'none', onclick: () => choose(i),
+    cx: x.at(i + 1), cy: y(shares[i + 1]), r: i === chosen ? 5.5 : plan.views.length > kMany ? 2.5 : 3.4, class: 'pick', fill: i === chosen ? 'var(--lit)' : `var(${bodyColour(view.platform)})`, stroke: i === chosen ? 'var(--ink)' : 'none', onclick: () => choose(i),
   }, svg('title', {}, `view ${i + 1}: ${percent(shares[i + 1])} % of the surface`))),
   ...named.map((name, i) => svg('g', {},
     svg('path', { d: `M${width - kRight} ${name.y}L${width - kRight + 8} ${places[i]}`, stroke: name.ink, fill: 'none' }),
     text(name.text, { x: width - kRight + 11, y: places[i] + 4, fill: name.ink, ...(i === named.length - 1 ? { 'font-weight': 600 } : {}) }))));
+}
+
+/// Where the name of a mark stands: beside it, outside of what two marks enclose; a line lower where they would meet.
+function nameOf(at: number[], i: number, width: number): Record<string, string | number> {
+  const before = i === 0 && at.length > 1 ? at[0] - kLeft > kNameWidth : at[i] > width - kRight - 50;
+  const meets = i === 1 && (before ? at[1] - at[0] < kNameWidth : at[0] - kLeft <= kNameWidth && at[1] - at[0] < kNameWidth);
+  return { x: at[i] + (before ? -3 : 3), y: meets ? kTop + 14 : kTop - 8, 'text-anchor': before ? 'end' : 'start' };
 }
 
 export function coverageNote(plan: ScanPlan): string {
