@@ -30,6 +30,8 @@ void add_simulate(CLI::App& root, Common& common);
 void add_body(CLI::App& root, Common& common);
 void add_reproduce(CLI::App& root, Common& common);
 void add_layout(CLI::App& root, Common& common);
+void add_align(CLI::App& root, Common& common);
+void add_fuse(CLI::App& root, Common& common);
 void add_schema(CLI::App& root, Common& common);
 void add_verify(CLI::App& root, Common& common);
 void add_plan(CLI::App& root, Common& common);

@@ -51,14 +51,12 @@ std::vector<ScanEntry> read_scan_entries(const std::filesystem::path& folder) {
   return entries;
 }
 
-ReadScan read_scan(const std::filesystem::path& folder, const ScanEntry& entry) {
+std::size_t read_scan_pieces(const std::filesystem::path& folder, const ScanEntry& entry, std::size_t most,
+                             const std::function<void(Scan&&)>& take) {
   CloudReader reader(folder / entry.file);
-  ReadScan read;
-  read.scan.number = entry.scan;
-  read.scan.body = entry.body;
-  read.scan.time_s = entry.time_s.value_or(0);
-  for (std::size_t left = reader.points(); left > 0; left -= std::min(left, kAtOnce)) {
-    const Cloud piece = reader.next(std::min(left, kAtOnce));
+  std::size_t not_finite = 0;
+  for (std::size_t left = reader.points(); left > 0; left -= std::min(left, most)) {
+    const Cloud piece = reader.next(std::min(left, most));
     const std::vector<double>* times = piece.field("time_s");
     if (times == nullptr && !entry.time_s) {
       throw InputError((folder / entry.file).string(),
@@ -66,10 +64,29 @@ ReadScan read_scan(const std::filesystem::path& folder, const ScanEntry& entry) 
                                    "`time_s` in scans.csv",
                                    entry.scan));
     }
+    ReadScan read;
+    read.scan.number = entry.scan;
+    read.scan.body = entry.body;
     append(read, piece, times);
+    not_finite += read.not_finite;
+    read.scan.time_s = entry.time_s.value_or(read.scan.times_s.empty() ? 0 : read.scan.times_s.front());
+    if (!read.scan.in_scanner.empty()) take(std::move(read.scan));
   }
-  read.not_finite += reader.not_finite();
-  if (!entry.time_s && !read.scan.times_s.empty()) read.scan.time_s = read.scan.times_s.front();
+  return not_finite + reader.not_finite();
+}
+
+ReadScan read_scan(const std::filesystem::path& folder, const ScanEntry& entry) {
+  ReadScan read;
+  read.scan.number = entry.scan;
+  read.scan.body = entry.body;
+  read.scan.time_s = entry.time_s.value_or(0);
+  read.not_finite = read_scan_pieces(folder, entry, kAtOnce, [&](Scan&& piece) {
+    Scan& scan = read.scan;
+    if (!entry.time_s && scan.in_scanner.empty()) scan.time_s = piece.time_s;
+    scan.in_scanner.insert(scan.in_scanner.end(), piece.in_scanner.begin(), piece.in_scanner.end());
+    scan.times_s.insert(scan.times_s.end(), piece.times_s.begin(), piece.times_s.end());
+    scan.normals.insert(scan.normals.end(), piece.normals.begin(), piece.normals.end());
+  });
   return read;
 }
 

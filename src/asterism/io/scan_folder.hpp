@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,11 @@ struct ReadScan {
 /// moment is not finite are left out. An empty scan is allowed. Throws InputError when neither the file nor
 /// scans.csv tells a time.
 [[nodiscard]] ReadScan read_scan(const std::filesystem::path& folder, const ScanEntry& entry);
+
+/// The same piece by piece, of at most so many points each, so that memory does not grow with the file; a
+/// scan without points gives no piece. Returns how many points were left out.
+std::size_t read_scan_pieces(const std::filesystem::path& folder, const ScanEntry& entry, std::size_t most,
+                             const std::function<void(Scan&&)>& take);
 
 /// scans/NNN.ply (single precision) and a line each in scans.csv, which comes last.
 void write_scan(const std::filesystem::path& folder, const Scan& scan);

@@ -96,7 +96,7 @@ void find_poses(Slots& slots, const ScanChain& chain, const CarryOptions& option
     if (there[i] == 0) continue;
     if (slot.first_s > part_from_s + options.independent_s) {
       part_from_s = slot.first_s;
-      to.parts.emplace_back();
+      to.parts.push_back({slot.first_s, {}});
     }
     slot.part = static_cast<std::uint32_t>(to.parts.size() - 1);
     slot.pose = static_cast<std::uint32_t>(to.poses.size());

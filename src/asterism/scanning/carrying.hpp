@@ -64,6 +64,7 @@ void describe(CarryOptions& options, OptionVisitor& visit);
 
 /// Points of one scan whose poses have their noise in common.
 struct CarriedPart {
+  double from_s = 0;
   std::vector<CarriedPoint> points;
 };
 struct CarriedScan {

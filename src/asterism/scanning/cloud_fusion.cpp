@@ -31,6 +31,18 @@ VoxelKey key_of(const Vec3& at, double per_mm) {
 
 std::size_t share_of(VoxelKey key) { return (key * 0xD6E8FEB86659FD93ULL) >> 58; }
 
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& more) {
+  to.insert(to.end(), more.begin(), more.end());
+}
+
+double median_of(std::vector<float>& values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 }  // namespace
 
 void describe(CloudFusionOptions& options, OptionVisitor& visit) {
@@ -118,26 +130,27 @@ void CloudFusion::add(int scan, int part, std::span<const ScannerPose> poses,
 FusedCloud CloudFusion::cloud() {
   state_->close();
   std::vector<FusedCloud> told(kShares);
-  std::vector<std::vector<float>> chi2(kShares);
+  std::vector<VoxelAgreement> agreed(kShares);
   parallel_for(kShares, [&](std::size_t share) {
     state_->shares[share].tell(state_->options.voxel_mm, state_->options, state_->largest_chi2, told[share],
-                               chi2[share]);
+                               agreed[share]);
   });
   FusedCloud fused;
   fused.points_in = state_->points;
-  std::vector<float> all;
+  VoxelAgreement all;
   for (std::size_t share = 0; share < kShares; ++share) {
-    fused.points.insert(fused.points.end(), told[share].points.begin(), told[share].points.end());
+    append(fused.points, told[share].points);
     fused.outliers += told[share].outliers;
     fused.few += told[share].few;
-    all.insert(all.end(), chi2[share].begin(), chi2[share].end());
+    append(all.chi2, agreed[share].chi2);
+    append(all.apart_mm2, agreed[share].apart_mm2);
+    append(all.stated_mm2, agreed[share].stated_mm2);
   }
-  fused.shared = all.size();
-  if (!all.empty()) {
-    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-    std::nth_element(all.begin(), middle, all.end());
-    fused.disagreement = *middle / chi_square_quantile(0.5, 1);
-  }
+  fused.shared = all.chi2.size();
+  const double usual = chi_square_quantile(0.5, 1);  // the median of χ²
+  fused.disagreement = median_of(all.chi2) / usual;
+  fused.apart_mm = std::sqrt(median_of(all.apart_mm2) / usual);
+  fused.stated_mm = std::sqrt(median_of(all.stated_mm2));
   return fused;
 }
 

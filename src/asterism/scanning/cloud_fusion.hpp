@@ -62,6 +62,7 @@ struct FusedCloud {
   // χ² along the normal of one against the others, over what it is to be: 1 when they do.
   std::size_t shared = 0;
   double disagreement = 0;
+  double apart_mm = 0, stated_mm = 0;  // one scan's noise along the normal: as told by that, as stated
 };
 /// With fields sigma_mm (along the normal), points, scans, scan, incidence_deg, range_mm.
 [[nodiscard]] Cloud cloud_of(const FusedCloud& fused);

@@ -137,10 +137,10 @@ Scan cleaned(Scan scan, const ScanSurface& surface) {
 }
 
 bool seen_from_origin(const Scan& scan) {
-  constexpr double kBehind = 0.01;  // share of the points; a few outliers may be anywhere
-  std::size_t behind = 0;
-  for (const Vec3f& point : scan.in_scanner) behind += point.z() <= 0 ? 1 : 0;
-  return static_cast<double>(behind) <= kBehind * static_cast<double>(scan.in_scanner.size());
+  constexpr double kFew = 0.01;  // share of the points; a few outliers may be anywhere
+  std::size_t aside = 0;         // behind, or more than 45° off its axis
+  for (const Vec3f& point : scan.in_scanner) aside += point.z() <= point.head<2>().norm() ? 1 : 0;
+  return static_cast<double>(aside) <= kFew * static_cast<double>(scan.in_scanner.size());
 }
 
 }  // namespace asterism

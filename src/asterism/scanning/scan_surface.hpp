@@ -39,7 +39,7 @@ struct ScanSurface {
 [[nodiscard]] Scan cleaned(Scan scan, const ScanSurface& surface);
 
 /// Published scans are often told in a frame whose origin is not where the scanner was: then points lie
-/// behind it or all around it.
+/// behind it, or farther off its axis than any scanner sees.
 [[nodiscard]] bool seen_from_origin(const Scan& scan);
 
 }  // namespace asterism

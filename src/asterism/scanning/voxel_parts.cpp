@@ -54,16 +54,20 @@ Mean mean_of(const std::vector<VoxelPart>& parts, const Vec3f& normal, std::size
   return mean;
 }
 
-/// χ² of a part against the others: along the normal, with room for the normal's own error over the distance
+/// A part against the others: along the normal, with room for the normal's own error over the distance
 /// between them.
-float chi2_of(const std::vector<VoxelPart>& parts, std::size_t which, const Facing& facing) {
+struct Contrast {
+  float off2, variance;
+  [[nodiscard]] float chi2() const { return off2 / variance; }
+};
+Contrast contrast_of(const std::vector<VoxelPart>& parts, std::size_t which, const Facing& facing) {
   const Mean others = mean_of(parts, facing.normal, which);
   const Vec3f apart = parts[which].at - others.at;
-  const float own = variance_of(parts[which].noise, facing.normal);
-  if (facing.normal.isZero()) return apart.squaredNorm() / (3 * (own + 1 / others.weight));
+  const float variance = variance_of(parts[which].noise, facing.normal) + 1 / others.weight;
+  if (facing.normal.isZero()) return {apart.squaredNorm() / 3, variance};
   const float off = apart.dot(facing.normal);
   const float beside2 = std::max(0.F, apart.squaredNorm() - off * off);
-  return off * off / (own + 1 / others.weight + facing.tilt2 * beside2);
+  return {off * off, variance + facing.tilt2 * beside2};
 }
 
 VoxelPart joined(const std::vector<VoxelPart>& parts, const Vec3f& normal) {
@@ -106,12 +110,18 @@ AgreedParts agreement_of(std::vector<VoxelPart>& parts, float largest_chi2) {
   AgreedParts agreed;
   Facing facing = facing_of(parts);
   agreed.shared = parts.size() > 1;
-  if (agreed.shared) agreed.chi2 = chi2_of(parts, 0, facing);
+  if (agreed.shared) {
+    const Contrast first = contrast_of(parts, 0, facing);
+    const float share = 1 - 1 / static_cast<float>(parts.size());  // of 1 + 1/(n − 1), what one part adds
+    agreed.chi2 = first.chi2();
+    agreed.apart_mm2 = share * first.off2;
+    agreed.stated_mm2 = share * first.variance;
+  }
   while (parts.size() > 1) {
     std::size_t worst = 0;
     float worst_chi2 = -1;
     for (std::size_t i = 0; i < parts.size(); ++i) {
-      const float chi2 = chi2_of(parts, i, facing);
+      const float chi2 = contrast_of(parts, i, facing).chi2();
       if (chi2 <= worst_chi2) continue;
       worst = i;
       worst_chi2 = chi2;

@@ -40,6 +40,8 @@ struct AgreedParts {
   std::uint32_t refused = 0;     // points
   bool shared = false;           // there was more than one part
   float chi2 = 0;                // then: of the first part against all others, before any was refused
+  float apart_mm2 = 0;           // that part's distance from the others, squared, as one scan's share of it
+  float stated_mm2 = 0;          // and what its covariance says of it
 };
 /// At least one part, in the order in which they came. `largest_chi2` is for one degree of freedom. What is
 /// refused is taken out of `parts`, the worst first.

@@ -177,14 +177,18 @@ void VoxelStore::close_part(float largest_chi2) {
 }
 
 void VoxelStore::tell(double voxel_mm, const CloudFusionOptions& options, float largest_chi2,
-                      FusedCloud& fused, std::vector<float>& chi2) const {
+                      FusedCloud& fused, VoxelAgreement& agreement) const {
   fused.outliers += refused_;
   for (const Slot& slot : slots_) {
     std::vector<VoxelPart> parts = parts_of(slot);
     const AgreedParts agreed = agreement_of(parts, largest_chi2);
     const VoxelPart& all = agreed.all;
     fused.outliers += agreed.refused;
-    if (agreed.shared) chi2.push_back(agreed.chi2);
+    if (agreed.shared) {
+      agreement.chi2.push_back(agreed.chi2);
+      agreement.apart_mm2.push_back(agreed.apart_mm2);
+      agreement.stated_mm2.push_back(agreed.stated_mm2);
+    }
     if (all.points < static_cast<std::uint32_t>(options.min_points)) {
       fused.few += all.points;
       continue;

@@ -20,6 +20,11 @@ struct VoxelCall {
   std::span<const ScannerPose> poses;
 };
 
+/// Of each voxel that several parts share (AgreedParts).
+struct VoxelAgreement {
+  std::vector<float> chi2, apart_mm2, stated_mm2;
+};
+
 /// The voxels of one share of space: which share a voxel falls into is told by its key alone, so shares can
 /// be filled by as many threads without a lock and in the same order whatever their number.
 class VoxelStore {
@@ -27,9 +32,9 @@ class VoxelStore {
   void take(VoxelKey key, const Vec3& centre, const CarriedPoint& point, const VoxelCall& call);
   /// The part of the scan that was being taken is done: each of its voxels now holds it against the others.
   void close_part(float largest_chi2);
-  /// Adds its points to `fused`, and the χ² of shared voxels to `chi2`.
+  /// Adds its points to `fused`, and what shared voxels tell of the scans' agreement.
   void tell(double voxel_mm, const CloudFusionOptions& options, float largest_chi2, FusedCloud& fused,
-            std::vector<float>& chi2) const;
+            VoxelAgreement& agreement) const;
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
