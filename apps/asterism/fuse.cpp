@@ -71,6 +71,8 @@ void add_fuse(CLI::App& root, Common& common) {
       ->add_option("--longest-mm", call->longest_mm, "longest edge of the mesh's box, in place of its unit")
       ->check(CLI::PositiveNumber);
   command->add_flag("--flip", call->job.mesh_scale.flip, "the mesh's triangles face inwards");
+  command->add_flag("--refine", call->job.refine,
+                    "correct poses by the scans' shape, weighed against the tracker");
   command->add_flag("--report", call->job.report, "report.html beside the cloud");
   const auto options = step_options<FuseScansOptions>(*command);
   on_call(*command, common, [=, &common] { run(*call, options(), common); });

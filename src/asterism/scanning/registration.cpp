@@ -172,6 +172,10 @@ Result<Registration, RegistrationFailure> register_scan(std::span<const SurfaceS
   return found;
 }
 
+Mat6 covariance_at(const Registration& registration, const Vec3& place) {
+  return carried_to(registration.covariance, registration.about, place);
+}
+
 RigidMotion motion_of(const Registration& registration) {
   return motion_about(registration.correction, registration.about);
 }

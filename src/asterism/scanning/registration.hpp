@@ -61,6 +61,9 @@ enum class RegistrationFailure { TooFewPairs };
 /// The correction as a motion of places in the workpiece's frame.
 [[nodiscard]] RigidMotion motion_of(const Registration& registration);
 
+/// The corrected pose's covariance (ω, δ at another place).
+[[nodiscard]] Mat6 covariance_at(const Registration& registration, const Vec3& place);
+
 /// A scan among others, as few spots as will do.
 struct ScanSpots {
   int scan = 0;

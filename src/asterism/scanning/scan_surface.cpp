@@ -71,7 +71,7 @@ Told told_of(const Vec3& point, std::vector<Vec3>& near, const Scanner& scanner,
   const double of_noise = std::pow(noise.depth_mm * normal.z(), 2) +
                           std::pow(noise.lateral_mm, 2) * (1 - normal.z() * normal.z());
   const double spread = std::max(of_noise, plane.rms_mm * plane.rms_mm);
-  told.outlier = away * away > largest_chi2 * (of_noise + spread);
+  told.outlier = away * away > 2 * largest_chi2 * spread;
   told.normal = normal.cast<float>();
   told.off_mm = static_cast<float>(away / std::sqrt(1 + 1 / static_cast<double>(near.size())));
   return told;

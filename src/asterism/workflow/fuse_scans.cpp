@@ -105,8 +105,30 @@ struct Setup {
   const std::map<std::string, ScanChain>& chains;
   const ScanViews& views;
   Scanner scanner;
-  double pose_sigma_mm = 0;  // noise that poses are given beyond their own
+  double pose_sigma_mm = 0;                                   // noise that poses are given beyond their own
+  std::vector<ScanSpots> spots = {};                          // by scan: what registration compares
+  std::vector<std::optional<Registration>> corrections = {};  // by scan: applied where they are there
 };
+
+/// A scan's pose as its shape corrects it.
+void correct(const Registration& by_shape, ScannerPose& pose) {
+  pose.workpiece_from_scanner = motion_of(by_shape) * pose.workpiece_from_scanner;
+  pose.noise = covariance_at(by_shape, pose.workpiece_from_scanner.translation);
+}
+
+/// Some of a carried part's points, evenly, for registration.
+void keep_spots(const CarriedPart& part, std::size_t of, std::size_t most, ScanSpots& spots) {
+  const std::size_t stride = std::max<std::size_t>(1, of / most);
+  for (std::size_t i = 0; i < part.points.size(); i += stride) {
+    const CarriedPoint& point = part.points[i];
+    if (point.normal.isZero()) continue;
+    const Vec3 n = point.normal.cast<double>();
+    const auto& c = point.scanner_mm2;
+    Mat3 covariance;
+    covariance << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];
+    spots.spots.push_back({point.at, n, std::max(1e-12, n.dot(covariance * n))});
+  }
+}
 
 ScanChain chain_of(const Setup& setup, std::size_t scan) {
   ScanChain chain = setup.chains.at(setup.source.entries()[scan].body);
@@ -125,7 +147,7 @@ double pose_trace(const CarriedScan& scan, const CarriedPart& part) {
 }
 
 /// One scan on its way into the cloud.
-void fuse_scan(const Setup& setup, std::size_t scan, CloudFusion& fusion, FusedScanRow& row) {
+void fuse_scan(Setup& setup, std::size_t scan, CloudFusion& fusion, FusedScanRow& row) {
   const ScanChain chain = chain_of(setup, scan);
   const auto& view = setup.views.scanner_from_frame[scan];
   int part = -1;
@@ -138,6 +160,7 @@ void fuse_scan(const Setup& setup, std::size_t scan, CloudFusion& fusion, FusedS
     row.gap += to.gap;
     for (ScannerPose& pose : to.poses) {
       pose.noise.bottomRightCorner<3, 3>().diagonal().array() += setup.pose_sigma_mm * setup.pose_sigma_mm;
+      if (!setup.corrections.empty() && setup.corrections[scan]) correct(*setup.corrections[scan], pose);
     }
     for (const CarriedPart& each : to.parts) {
       // A large scan comes in pieces: what lies within one part's time goes on with it.
@@ -150,15 +173,21 @@ void fuse_scan(const Setup& setup, std::size_t scan, CloudFusion& fusion, FusedS
       }
       fusion.add(row.scan, part, to.poses, each.points);
       row.used += each.points.size();
+      ScanSpots& spots = setup.spots[scan];
+      keep_spots(each, setup.source.surveys()[scan].points,
+                 static_cast<std::size_t>(setup.job.options.registration.most_spots), spots);
+      spots.noise = to.poses[each.points.front().pose].noise;
+      spots.origin = to.poses[each.points.front().pose].workpiece_from_scanner.translation;
     }
   });
   row.sigma_mm = part >= 0 ? std::sqrt(trace / (3 * (part + 1))) : 0;
 }
 
-FusedCloud fuse_all(const Setup& setup, FusedScans& result, const Progress& progress) {
+FusedCloud fuse_all(Setup& setup, FusedScans& result, const Progress& progress) {
   const CloudFusionOptions& options = setup.job.options.fusion;
   CloudFusion fusion(options);
   result.scans.clear();
+  setup.spots.assign(setup.source.entries().size(), {});
   for (std::size_t i = 0; i < setup.source.entries().size(); ++i) {
     const ScanEntry& entry = setup.source.entries()[i];
     const ScanSurvey& survey = setup.source.surveys()[i];
@@ -242,6 +271,44 @@ void refuse_nothing_fused(const FusedScans& result, const ScanPoses& poses) {
       no_pose, poses.file.string(), fmt::join(bodies, ", "), outside, gap));
 }
 
+/// Without covariances a pose may be turned as much as moves the scan's rim by what scans lie apart.
+void guess_turns(Setup& setup) {
+  for (std::size_t i = 0; i < setup.spots.size(); ++i) {
+    ScanSpots& scan = setup.spots[i];
+    if (scan.spots.empty()) continue;
+    scan.origin.setZero();
+    for (const SurfaceSpot& spot : scan.spots)
+      scan.origin += spot.at / static_cast<double>(scan.spots.size());
+    const double sigma_rad = setup.pose_sigma_mm / (0.3 * setup.source.surveys()[i].across_mm);
+    scan.noise.setZero();
+    scan.noise.topLeftCorner<3, 3>().diagonal().setConstant(sigma_rad * sigma_rad);
+    scan.noise.bottomRightCorner<3, 3>().diagonal().setConstant(setup.pose_sigma_mm * setup.pose_sigma_mm);
+  }
+}
+
+/// Holds each scan against the others by its shape; corrects poses where that is asked for.
+void check_by_shape(const FuseScansJob& job, Setup& setup, FusedScans& result, const Progress& progress) {
+  std::vector<std::optional<Registration>> judged = register_scans(setup.spots, job.options.registration);
+  if (job.refine) {
+    setup.corrections = judged;
+    for (auto& correction : setup.corrections) {
+      if (correction && correction->degrees == 0) correction.reset();
+    }
+    result.fused = fuse_all(setup, result, progress);
+    result.remarks.emplace_back("poses were corrected by the scans' shape (--refine)");
+  }
+  for (std::size_t i = 0; i < judged.size(); ++i) {
+    if (judged[i] && judged[i]->disagrees) {
+      result.remarks.push_back(
+          fmt::format("scan {}: its shape disagrees with its tracked pose by {:.2f} mm and {:.2f}° "
+                      "(χ² {:.0f} on {})",
+                      result.scans[i].scan, judged[i]->shift_mm, judged[i]->turn_deg, judged[i]->chi2,
+                      judged[i]->degrees));
+    }
+    result.scans[i].by_shape = std::move(judged[i]);
+  }
+}
+
 /// How far scans lie apart beyond what is stated, as noise of each one's pose.
 double told_pose_sigma(const FusedCloud& fused) {
   return std::sqrt(std::max(0.0, fused.apart_mm * fused.apart_mm - fused.stated_mm * fused.stated_mm));
@@ -279,6 +346,8 @@ FusedScans fuse_scans(const FuseScansJob& job, const Progress& progress) {
     setup.pose_sigma_mm = told_pose_sigma(result.fused);
     result.fused = fuse_all(setup, result, progress);
   }
+  if (exact) guess_turns(setup);
+  if (setup.spots.size() > 1) check_by_shape(job, setup, result, progress);
   result.pose_sigma_mm = setup.pose_sigma_mm;
   result.scanner = setup.scanner;
   result.cloud = cloud_of(result.fused);

@@ -15,6 +15,7 @@
 #include "asterism/scanning/carrying.hpp"
 #include "asterism/scanning/completeness.hpp"
 #include "asterism/scanning/deviation.hpp"
+#include "asterism/scanning/registration.hpp"
 #include "asterism/scanning/scan_surface.hpp"
 #include "asterism/scanning/surface_samples.hpp"
 
@@ -24,6 +25,7 @@ struct FuseScansOptions {
   CarryOptions carrying;
   ScanSurfaceOptions surface;
   CloudFusionOptions fusion;
+  RegistrationOptions registration;
   CompletenessOptions completeness;
   DeviationOptions deviation;
   int samples = 8000;  // of the part's surface, that completeness is judged by
@@ -43,6 +45,7 @@ struct FuseScansJob {
   double scans_mm_each = 1;  // of the unit that the scans' numbers are in
   double poses_mm_each = 1;
   bool report = false;  // report.html beside the cloud
+  bool refine = false;  // correct poses by the scans' shape, weighed against how well they are tracked
   std::uint64_t seed = 1;
   FuseScansOptions options;
 };
@@ -54,7 +57,8 @@ struct FusedScanRow {
   std::size_t points = 0, not_finite = 0, outliers = 0;  // read; left out
   std::size_t no_pose = 0, outside_run = 0, gap = 0;     // left out for want of a pose
   std::size_t used = 0;
-  double sigma_mm = 0;  // of its pose, at the middle of its points: √(tr Σ / 3)
+  double sigma_mm = 0;                   // of its pose, at the middle of its points: √(tr Σ / 3)
+  std::optional<Registration> by_shape;  // against the other scans; none: too little overlap
 };
 
 struct FusedScans {

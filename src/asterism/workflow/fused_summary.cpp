@@ -46,18 +46,26 @@ Json json_of(const Completeness& completeness) {
   return json;
 }
 
+Json json_of(const Registration& found) {
+  return {{"pairs", found.pairs},   {"shift_mm", found.shift_mm},          {"turn_deg", found.turn_deg},
+          {"chi2", found.chi2},     {"degrees_of_freedom", found.degrees}, {"disagrees", found.disagrees},
+          {"rms_mm", found.rms_mm}, {"not_determined", found.free}};
+}
+
 Json json_of(const FusedScanRow& row) {
-  return {{"scan", row.scan},
-          {"file", row.file},
-          {"body", row.body},
-          {"points", row.points},
-          {"used", row.used},
-          {"not_finite", row.not_finite},
-          {"outliers", row.outliers},
-          {"no_pose", row.no_pose},
-          {"outside_run", row.outside_run},
-          {"gap", row.gap},
-          {"pose_sigma_mm", row.sigma_mm}};
+  Json json = {{"scan", row.scan},
+               {"file", row.file},
+               {"body", row.body},
+               {"points", row.points},
+               {"used", row.used},
+               {"not_finite", row.not_finite},
+               {"outliers", row.outliers},
+               {"no_pose", row.no_pose},
+               {"outside_run", row.outside_run},
+               {"gap", row.gap},
+               {"pose_sigma_mm", row.sigma_mm}};
+  if (row.by_shape) json["registration"] = json_of(*row.by_shape);
+  return json;
 }
 
 /// Sums over all scans.
@@ -95,6 +103,7 @@ void describe(FuseScansOptions& options, OptionVisitor& visit) {
   part("carrying", options.carrying);
   part("surface", options.surface);
   part("fusion", options.fusion);
+  part("registration", options.registration);
   part("completeness", options.completeness);
   part("deviation", options.deviation);
   visit.integer("samples", options.samples, {100, 1000000},
