@@ -82,7 +82,7 @@ VoxelPart joined(const std::vector<VoxelPart>& parts, const Vec3f& normal) {
     add_to(all.systematic, share, part.systematic);
     all.normals += part.normals;
     all.range_mm += part.range_mm;
-    all.incidence_rad += part.incidence_rad;
+    all.cos_incidence += part.cos_incidence;
     all.points += part.points;
     const bool again = all.scans > 0 && part.scans == 1 && part.scan == all.last_scan;
     all.scans = static_cast<std::uint16_t>(std::min(65535, all.scans + part.scans - (again ? 1 : 0)));

@@ -25,7 +25,7 @@ struct VoxelPart {
   Vec3f at = Vec3f::Zero();               // mm from the voxel's centre
   Upper noise{}, systematic{};            // mm²
   Vec3f normals = Vec3f::Zero();          // their sum, one a point
-  float range_mm = 0, incidence_rad = 0;  // sums
+  float range_mm = 0, cos_incidence = 0;  // sums
   std::uint32_t points = 0;
   std::int32_t scan = 0;          // the one that gave most of it,
   std::uint32_t scan_points = 0;  // so many

@@ -14,6 +14,13 @@ constexpr std::uint32_t kMostParts = 8;    // a voxel keeps; then those that agr
 constexpr float kSameFacing = 0.7071068F;  // cos 45°
 constexpr float kLeastVariance = 1e-12F;
 
+/// Without a normal a point joins the first.
+bool faces_alike(const Vec3f& sum, const Vec3f& normal) {
+  const float dot = sum.dot(normal), size2 = sum.squaredNorm();
+  if (dot > 0 && dot * dot > kSameFacing * kSameFacing * size2) return true;
+  return size2 == 0 || normal.squaredNorm() == 0;
+}
+
 Upper upper_of(const Mat3& m) {
   return {static_cast<float>(m(0, 0)), static_cast<float>(m(0, 1)), static_cast<float>(m(0, 2)),
           static_cast<float>(m(1, 1)), static_cast<float>(m(1, 2)), static_cast<float>(m(2, 2))};
@@ -66,14 +73,18 @@ std::uint32_t& VoxelStore::head_of(VoxelKey key) {
 }
 
 std::uint32_t VoxelStore::slot_of(VoxelKey key, const Vec3f& normal) {
+  // Points come line by line: the next one mostly falls where the last one fell.
+  if (key == last_key_ && faces_alike(slots_[last_slot_].normals, normal)) return last_slot_;
+  last_key_ = key;
+  last_slot_ = find_slot(key, normal);
+  return last_slot_;
+}
+
+std::uint32_t VoxelStore::find_slot(VoxelKey key, const Vec3f& normal) {
   std::uint32_t& head = head_of(key);
   std::uint32_t last = kNone;
   for (std::uint32_t at = head; at != kNone; at = slots_[at].next) {
-    const Vec3f& sum = slots_[at].normals;
-    const float dot = sum.dot(normal);
-    // Without a normal a point joins the first.
-    if (normal.isZero() || sum.isZero()) return at;
-    if (dot > 0 && dot * dot > kSameFacing * kSameFacing * sum.squaredNorm()) return at;
+    if (faces_alike(slots_[at].normals, normal)) return at;
     last = at;
   }
   const auto slot = static_cast<std::uint32_t>(slots_.size());
@@ -117,7 +128,7 @@ void VoxelStore::take(VoxelKey key, const Vec3& centre, const CarriedPoint& poin
   add_to(open.weighted_noise, weight * weight, noise);
   open.normals += point.normal;
   open.range_mm += point.range_mm;
-  open.incidence_rad += std::acos(std::min(1.F, point.cos_incidence));
+  open.cos_incidence += point.cos_incidence;
   ++open.points;
 }
 
@@ -165,7 +176,7 @@ void VoxelStore::close_part(float largest_chi2) {
     part.systematic = open.systematic;
     part.normals = open.normals;
     part.range_mm = open.range_mm;
-    part.incidence_rad = open.incidence_rad;
+    part.cos_incidence = open.cos_incidence;
     part.points = part.scan_points = open.points;
     part.scan = part.last_scan = open.scan;
     part.scans = 1;
@@ -201,7 +212,8 @@ void VoxelStore::tell(double voxel_mm, const CloudFusionOptions& options, float 
     point.scans = all.scans;
     point.scan = all.scan;
     const auto count = static_cast<float>(all.points);
-    point.incidence_deg = static_cast<float>(deg_from_rad(all.incidence_rad / count));
+    point.incidence_deg =
+        static_cast<float>(deg_from_rad(std::acos(std::min(1.F, all.cos_incidence / count))));
     point.range_mm = all.range_mm / count;
     fused.points.push_back(point);
   }

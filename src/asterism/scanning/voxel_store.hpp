@@ -46,7 +46,7 @@ class VoxelStore {
     Upper weighted_noise;     // Σ w² C
     Upper noise, systematic;  // of the pose, at the voxel's centre
     Vec3f normals;
-    float range_mm, incidence_rad;
+    float range_mm, cos_incidence;
     std::uint32_t points;
     std::int32_t scan;
   };
@@ -67,6 +67,7 @@ class VoxelStore {
   [[nodiscard]] std::uint32_t& head_of(VoxelKey key);
   void grow();
   std::uint32_t slot_of(VoxelKey key, const Vec3f& normal);
+  std::uint32_t find_slot(VoxelKey key, const Vec3f& normal);
   std::uint32_t open_for(std::uint32_t slot, const Vec3& centre, const CarriedPoint& point,
                          const VoxelCall& call);
   void append(Slot& slot, const VoxelPart& part);
@@ -81,6 +82,8 @@ class VoxelStore {
   std::vector<Linked> parts_;
   std::uint32_t free_ = 0xFFFFFFFF;
   std::size_t refused_ = 0;
+  VoxelKey last_key_ = ~VoxelKey{0};
+  std::uint32_t last_slot_ = 0;
 };
 
 [[nodiscard]] inline std::uint64_t hash_of(VoxelKey key) {
