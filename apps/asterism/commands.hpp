@@ -33,6 +33,7 @@ void add_layout(CLI::App& root, Common& common);
 void add_align(CLI::App& root, Common& common);
 void add_fuse(CLI::App& root, Common& common);
 void add_schema(CLI::App& root, Common& common);
+void add_compare(CLI::App& root, Common& common);
 void add_verify(CLI::App& root, Common& common);
 void add_plan(CLI::App& root, Common& common);
 void add_suggest_layout(CLI::App& layout, Common& common);  // under `layout`

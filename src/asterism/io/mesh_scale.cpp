@@ -14,7 +14,6 @@ namespace {
 constexpr double kSmallestMm = 5, kLargestMm = 50e3;  // of a part, from corner to corner
 constexpr std::array<double, 4> kMmOfUnit = {1, 10, 1000, 25.4};
 
-double mm_of(LengthUnit unit) { return kMmOfUnit.at(static_cast<std::size_t>(unit)); }
 const std::string& word_of(LengthUnit unit) { return length_unit_words().at(static_cast<std::size_t>(unit)); }
 
 bool is_plausible(double diagonal_mm) { return diagonal_mm >= kSmallestMm && diagonal_mm <= kLargestMm; }
@@ -62,6 +61,8 @@ const std::vector<std::string>& length_unit_words() {
   static const std::vector<std::string> words = {"mm", "cm", "m", "inch"};
   return words;
 }
+
+double mm_of(LengthUnit unit) { return kMmOfUnit.at(static_cast<std::size_t>(unit)); }
 
 TriangleMesh checked_mesh(TriangleMesh mesh, const MeshScale& scale, const std::string& where) {
   if (mesh.empty()) throw InputError(where, "the mesh holds no triangles");

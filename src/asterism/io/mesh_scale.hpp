@@ -12,6 +12,7 @@ namespace asterism {
 enum class LengthUnit { Millimetre, Centimetre, Metre, Inch };
 /// "mm", "cm", "m", "inch", in the order of the enum.
 [[nodiscard]] const std::vector<std::string>& length_unit_words();
+[[nodiscard]] double mm_of(LengthUnit unit);
 
 /// How a file's numbers become millimetres: by their unit, or by the longest edge of the box around them.
 struct MeshScale {
