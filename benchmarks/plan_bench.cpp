@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plans of views with stand-off, limits and seeds fixed: 300 mm, 200 to 400 mm, 350 x 310 mm, 60 degrees,
 // seed 2026. How long the measurability matrix of 8,000 viewpoints and 8,000 samples of a turbine casing
-// takes; the paper's cone (r = 453.2 + 0.1208 z, 600 mm high, a wall of 12 mm) by its rings of 96 and 72
-// stations and by ours, outer wall and whole; the turbine casing in its cell, tracked, on a platform of +-15
-// degrees. With a folder as argument the cover problems are written there in the OR-Library's form.
+// takes; the paper's cone (r = 453.2 + 0.1208 z, from z = -115 to 485, a wall of 12 mm) by its rings of 96
+// and 72 stations and by ours, outer wall and whole; the turbine casing in its cell, tracked, on a platform
+// of +-15 degrees. With a folder as argument the cover problems are written there in the OR-Library's form.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -59,17 +59,19 @@ Cell cone_cell(bool outer_wall_only) {
   target.id = "S1";
   target.position = Vec3::Zero();
   cell.movers = {{{"scanner", {target}}, at_rest({})}};
-  const double slope = 0.1208, height = 600, wall = 12;
-  const double low = 453.2, high = low + slope * height;
+  // So high that the paper's rings at 0 and 300 mm see all of the outer wall.
+  const double slope = 0.1208, bottom = -115, top = 485, wall = 12;
+  const double low = 453.2 + slope * bottom, high = 453.2 + slope * top;
   Solid part;
   part.name = "cone";
   part.surface = std::make_shared<const TriangleMesh>(
-      surface_of_revolution({{low, 0}, {high, height}, {high - wall, height}, {low - wall, 0}}, 720));
+      surface_of_revolution({{low, bottom}, {high, top}, {high - wall, top}, {low - wall, bottom}}, 720));
   cell.workpiece = part;
   cell.scanner = Scanner{};
   if (outer_wall_only) {
-    const Frustum within{low - 0.5, high - 0.5 + 2 * slope, height + 2};
-    cell.scan_task.regions = {{"all but the outer wall", within, {Quaternion::Identity(), {0, 0, -1}}, 0}};
+    const Frustum within{low - 0.5, high - 0.5 + 2 * slope, top - bottom + 2};
+    cell.scan_task.regions = {
+        {"all but the outer wall", within, {Quaternion::Identity(), {0, 0, bottom - 1}}, 0}};
   }
   return cell;
 }

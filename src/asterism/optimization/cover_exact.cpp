@@ -9,6 +9,7 @@
 #include <coin/CglMixedIntegerRounding2.hpp>
 #include <coin/CglProbing.hpp>
 #include <coin/CglZeroHalf.hpp>
+#include <coin/CoinError.hpp>
 #include <coin/OsiClpSolverInterface.hpp>
 
 #include <algorithm>
@@ -182,10 +183,14 @@ class ExactSearch {
   void run(ExactCover& result, const Progress& progress) {
     progress("linear relaxation", 0, 1);
     const auto begin = std::chrono::steady_clock::now();
-    if (!relax(result)) return;
-    const std::chrono::duration<double> used = std::chrono::steady_clock::now() - begin;
-    progress("exact search", 0, 1);
-    branch(result, used.count());
+    try {
+      if (!relax(result)) return;
+      const std::chrono::duration<double> used = std::chrono::steady_clock::now() - begin;
+      progress("exact search", 0, 1);
+      branch(result, used.count());
+    } catch (const CoinError& error) {  // the cover and the bound that are there hold all the same
+      result.words = "broke off: " + error.message();
+    }
   }
 
  private:
