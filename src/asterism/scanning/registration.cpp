@@ -15,8 +15,9 @@ namespace {
 
 constexpr std::size_t kFewestPairs = 50;
 constexpr int kSteps = 12;
-constexpr double kSameFacing = 0.7;
-constexpr double kFar = 3.5;  // robust standard deviations; pairs beyond do not count
+constexpr double kSameFacing = 0.95;  // at edges a plane says nothing of the place beside it
+constexpr double kAlike = 10;         // pairs that lie together share planes: so many count as one
+constexpr double kFar = 3.5;          // robust standard deviations; pairs beyond do not count
 
 /// The plane found for a spot, once that was moved, and how far the spot lies off it. Its lever is told at
 /// the plane's own place: at the spot's, which lies a little aside, a cylinder would seem to determine its
@@ -141,13 +142,10 @@ Result<Registration, RegistrationFailure> register_scan(std::span<const SurfaceS
   for (const Pair& pair : pairs) found.reach_mm = std::max(found.reach_mm, (pair.at - found.about).norm());
   Determined determined;
   RigidMotion moved;
-  double scale = 1;
   for (int step = 0; step < kSteps; ++step) {
     const Asked asked = asked_by(pairs, found.about);
-    // Rough surfaces, and planes that stand for curved ones, spread more than the noise.
-    scale = std::max(1.0, asked.chi2 / static_cast<double>(pairs.size()));
-    determined = determined_by(Mat6(asked.information / scale), found.reach_mm, options.free_mm);
-    determined.inverse /= scale;
+    determined = determined_by(Mat6(asked.information / kAlike), found.reach_mm, options.free_mm);
+    determined.inverse /= kAlike;
     const Vec6 way = determined.inverse * asked.pull;
     const double moved_mm = way.head<3>().norm() * found.reach_mm + way.tail<3>().norm();
     moved = motion_about(way, found.about) * moved;
@@ -167,7 +165,8 @@ Result<Registration, RegistrationFailure> register_scan(std::span<const SurfaceS
   for (const Vec6& motion : determined.free)
     found.free.push_back(words_of(motion, found.about, found.reach_mm));
   if (determined.degrees == 0) return found;
-  weigh(found, determined, std::max(1.0, left.chi2 / static_cast<double>(pairs.size())),
+  // Rough surfaces, and planes that stand for curved ones, spread more than the noise.
+  weigh(found, determined, kAlike * std::max(1.0, left.chi2 / static_cast<double>(pairs.size())),
         carried_to(pose, origin, found.about), carried_to(others, origin, found.about), options);
   return found;
 }

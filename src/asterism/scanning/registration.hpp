@@ -24,10 +24,10 @@ using FindSpot = std::function<std::optional<SurfaceSpot>(const SurfaceSpot& spo
 
 struct RegistrationOptions {
   double within_mm = 4;     // spots farther apart along the normal do not belong together
-  double free_mm = 0.25;    // a motion that the shape tells worse than this is called not determined
+  double free_mm = 0.1;     // a motion that the shape tells worse than this is called not determined
   double flag_p = 0.001;    // a disagreement rarer than this is one,
-  double least_mm = 0.3;    // when it is larger than this at the scan's middle,
-  double least_deg = 0.15;  // or than this turn
+  double least_mm = 0.5;    // when it is larger than this at the scan's middle,
+  double least_deg = 0.25;  // or than this turn
   int most_spots = 4000;    // of one scan
 };
 void describe(RegistrationOptions& options, OptionVisitor& visit);
