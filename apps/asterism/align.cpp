@@ -116,7 +116,7 @@ Alignment aligned(const Call& call) {
   const int told = (call.nominal.empty() ? 0 : 1) + (call.planes.empty() ? 0 : 1) +
                    (call.cell.empty() && call.mesh.empty() ? 0 : 1);
   if (told != 1) {
-    throw InputError("asterism align",
+    throw InputError("command line",
                      "one of --nominal (points), --planes (3-2-1), --cell or --mesh (best fit) is needed");
   }
   const std::vector<ProbedPoint> probed = read_probed(call);
