@@ -115,7 +115,8 @@ void weigh(Registration& found, const Determined& determined, double scale, cons
   found.correction = gain * asked;
   found.covariance = pose - Mat6(gain * onto * MatX(pose));
   const bool rare = chi_square_tail(found.chi2, found.degrees) < options.flag_p;
-  found.disagrees = rare && (found.shift_mm > options.least_mm || found.turn_deg > options.least_deg);
+  const bool large = found.shift_mm > options.least_mm || found.turn_deg > options.least_deg;
+  found.disagrees = rare && large && found.before_mm > options.least_gain * found.rms_mm;
 }
 
 }  // namespace
@@ -128,6 +129,8 @@ void describe(RegistrationOptions& options, OptionVisitor& visit) {
                "a scan is flagged when its disagreement is rarer than this");
   visit.number("least_mm", options.least_mm, {0, 1e4}, "and larger than this,");
   visit.number("least_deg", options.least_deg, {0, 180}, "or turned by more than this");
+  visit.number("least_gain", options.least_gain, {1, 1000},
+               "and the shapes lie so many times closer after it");
   visit.integer("most_spots", options.most_spots, {100, 1000000}, "places of one scan that are compared");
 }
 
@@ -140,6 +143,8 @@ Result<Registration, RegistrationFailure> register_scan(std::span<const SurfaceS
   Registration found;
   for (const Pair& pair : pairs) found.about += pair.at / static_cast<double>(pairs.size());
   for (const Pair& pair : pairs) found.reach_mm = std::max(found.reach_mm, (pair.at - found.about).norm());
+  const Asked tracked = asked_by(pairs, found.about);
+  found.before_mm = std::sqrt(tracked.square_mm2 / static_cast<double>(pairs.size()));
   Determined determined;
   RigidMotion moved;
   for (int step = 0; step < kSteps; ++step) {

@@ -27,8 +27,10 @@ struct RegistrationOptions {
   double free_mm = 0.1;     // a motion that the shape tells worse than this is called not determined
   double flag_p = 0.001;    // a disagreement rarer than this is one,
   double least_mm = 0.5;    // when it is larger than this at the scan's middle,
-  double least_deg = 0.25;  // or than this turn
-  int most_spots = 4000;    // of one scan
+  double least_deg = 0.25;  // or than this turn,
+  double least_gain =
+      1.5;                // and the shapes lie so many times closer after it: else it only slides along them
+  int most_spots = 4000;  // of one scan
 };
 void describe(RegistrationOptions& options, OptionVisitor& visit);
 
@@ -43,7 +45,8 @@ struct Registration {
   Mat6 covariance = Mat6::Zero();     // of the pose once it is corrected
   double chi2 = 0;                    // of `by_shape` against tracked pose and shape
   int degrees = 0;                    // of freedom that the shape determines
-  double rms_mm = 0;                  // of the pairs after `by_shape`
+  double before_mm = 0;               // RMS of the pairs by the tracked pose,
+  double rms_mm = 0;                  // and after `by_shape`
   bool disagrees = false;
   std::vector<std::string> free;  // motions that the shape leaves free, in words: not judged
 };

@@ -47,9 +47,15 @@ Json json_of(const Completeness& completeness) {
 }
 
 Json json_of(const Registration& found) {
-  return {{"pairs", found.pairs},   {"shift_mm", found.shift_mm},          {"turn_deg", found.turn_deg},
-          {"chi2", found.chi2},     {"degrees_of_freedom", found.degrees}, {"disagrees", found.disagrees},
-          {"rms_mm", found.rms_mm}, {"not_determined", found.free}};
+  return {{"pairs", found.pairs},
+          {"shift_mm", found.shift_mm},
+          {"turn_deg", found.turn_deg},
+          {"chi2", found.chi2},
+          {"degrees_of_freedom", found.degrees},
+          {"disagrees", found.disagrees},
+          {"before_mm", found.before_mm},
+          {"rms_mm", found.rms_mm},
+          {"not_determined", found.free}};
 }
 
 Json json_of(const FusedScanRow& row) {
