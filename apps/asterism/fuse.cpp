@@ -45,9 +45,12 @@ void add_fuse(CLI::App& root, Common& common) {
   CLI::App* command = add_command(
       root, common, "fuse", "Scans and tracked poses: one cloud with an uncertainty at each point",
       "asterism fuse recording --out out/cloud.ply --report\n"
+      "  asterism fuse scan rescan --out out/cloud.ply\n"
       "  asterism fuse scans --poses poses.csv --unit m --out cloud.ply --mesh part.stl --mesh-unit mm");
   auto call = std::make_shared<Call>();
-  command->add_option("scans", call->job.scans, "folder with scans.csv, the scans, and poses")->required();
+  command
+      ->add_option("scans", call->job.scans, "folders with scans.csv, the scans, and poses: all in one cloud")
+      ->required();
   command->add_option("--out", call->job.out, "PLY file; fusion.json comes beside it")->required();
   command->add_option("--cell", call->job.cell,
                       "cell that tells the scanner, the part and its place; else cell.toml in the folder");

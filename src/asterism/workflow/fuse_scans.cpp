@@ -6,104 +6,40 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "asterism/core/output_file.hpp"
 #include "asterism/core/result.hpp"
-#include "asterism/io/alignment_file.hpp"
 #include "asterism/io/cell_file.hpp"
 #include "asterism/io/cloud_file.hpp"
 #include "asterism/workflow/fused_surface.hpp"
-#include "asterism/workflow/scan_poses.hpp"
-#include "asterism/workflow/scan_source.hpp"
-#include "asterism/workflow/scan_views.hpp"
+#include "asterism/workflow/scan_session.hpp"
 
 namespace asterism {
 namespace {
 
 std::optional<Cell> cell_of_job(const FuseScansJob& job) {
   if (!job.cell.empty()) return cell_of(job.cell);
-  const std::filesystem::path beside = job.scans / "cell.toml";
+  const std::filesystem::path beside = job.scans.front() / "cell.toml";
   if (std::filesystem::is_regular_file(beside)) return read_cell(beside);
   return std::nullopt;
 }
 
-Mat6 place_covariance(const Scanner& scanner) {
-  Mat6 covariance = Mat6::Zero();
-  covariance.topLeftCorner<3, 3>().diagonal().setConstant(std::pow(rad_from_deg(scanner.place_sigma_deg), 2));
-  covariance.bottomRightCorner<3, 3>().diagonal().setConstant(std::pow(scanner.place_sigma_mm, 2));
-  return covariance;
-}
+/// A scan of one of the sessions.
+struct SessionScan {
+  const ScanSession* session;
+  std::size_t index;  // in it
+  int number;         // in the cloud: its own, or one that no other session has
 
-/// Where the part is on its reference, and what the cloud's frame is called.
-void align(const FuseScansJob& job, const std::optional<Cell>& cell, const ScanPoses& poses, ScanChain& chain,
-           FusedScans& result) {
-  if (poses.reference.empty()) {
-    result.frame = "tracker";
-    result.remarks.emplace_back(
-        "no body is known to carry the part (--reference): the cloud is in the tracker's "
-        "frame, and right only while the part stood still");
-    return;
-  }
-  result.frame = poses.reference;
-  if (!job.alignment.empty()) {
-    const Alignment alignment = read_alignment(job.alignment);
-    chain.reference_from_workpiece = alignment.platform_from_workpiece;
-    chain.of_reference_from_workpiece = alignment.covariance;
-    for (const std::string& motion : alignment.not_determined) {
-      result.remarks.push_back(fmt::format("the alignment leaves free: {}", motion));
-    }
-    result.frame = "workpiece";
-  } else if (cell && cell->workpiece && cell->workpiece->body == poses.reference) {
-    chain.reference_from_workpiece = cell->workpiece->carrier_from_solid;
-    result.frame = "workpiece";
-    result.remarks.emplace_back(
-        "the part's place on the platform is the cell's, taken as exact; `asterism align` "
-        "measures it");
-  } else {
-    result.remarks.push_back(fmt::format(
-        "no alignment is known (--alignment): the cloud is in the frame of `{}`", poses.reference));
-  }
-}
-
-/// The chains of all scans, by the body that carries each.
-std::map<std::string, ScanChain> chains_of(const FuseScansJob& job, const std::optional<Cell>& cell,
-                                           const ScanPoses& poses, const std::vector<ScanEntry>& scans,
-                                           FusedScans& result) {
-  ScanChain chain;
-  align(job, cell, poses, chain, result);
-  const bool predicted = job.options.carrying.use_predicted;
-  if (!poses.reference.empty()) chain.reference = track_of(poses.records, poses.reference, predicted);
-  if (cell && cell->scanner) {
-    chain.body_from_scanner = cell->scanner->body_from_scanner;
-    chain.of_body_from_scanner = place_covariance(*cell->scanner);
-  } else {
-    result.remarks.emplace_back(
-        "no scanner is known (--cell): its frame is taken as that of its body, and its "
-        "noise as what the scans themselves tell");
-  }
-  std::map<std::string, ScanChain> chains;
-  bool covariance = !chain.reference || chain.reference->covariance_known;
-  for (const ScanEntry& scan : scans) {
-    ScanChain& own = chains.try_emplace(scan.body, chain).first->second;
-    if (own.scanner.body.empty()) own.scanner = track_of(poses.records, scan.body, predicted);
-    covariance = covariance && own.scanner.covariance_known;
-  }
-  if (!covariance)
-    result.remarks.emplace_back(
-        "poses come without covariance: their noise is taken from how far "
-        "scans lie apart where they overlap");
-  return chains;
-}
+  [[nodiscard]] const ScanEntry& entry() const { return session->source->entries()[index]; }
+  [[nodiscard]] const ScanSurvey& survey() const { return session->source->surveys()[index]; }
+};
 
 /// All that a fusion runs over.
 struct Setup {
   const FuseScansJob& job;
-  const ScanSource& source;
-  const std::map<std::string, ScanChain>& chains;
-  const ScanViews& views;
+  std::vector<SessionScan> scans;
   Scanner scanner;
   double pose_sigma_mm = 0;                                   // noise that poses are given beyond their own
   std::vector<ScanSpots> spots = {};                          // by scan: what registration compares
@@ -130,14 +66,6 @@ void keep_spots(const CarriedPart& part, std::size_t of, std::size_t most, ScanS
   }
 }
 
-ScanChain chain_of(const Setup& setup, std::size_t scan) {
-  ScanChain chain = setup.chains.at(setup.source.entries()[scan].body);
-  if (const auto& view = setup.views.scanner_from_frame[scan]) {
-    chain.body_from_scanner = chain.body_from_scanner * view->inverse();
-  }
-  return chain;
-}
-
 /// How well a part's pose puts its middle point, as the trace of that covariance.
 double pose_trace(const CarriedScan& scan, const CarriedPart& part) {
   const CarriedPoint& point = part.points[part.points.size() / 2];
@@ -148,11 +76,12 @@ double pose_trace(const CarriedScan& scan, const CarriedPart& part) {
 
 /// One scan on its way into the cloud.
 void fuse_scan(Setup& setup, std::size_t scan, CloudFusion& fusion, FusedScanRow& row) {
-  const ScanChain chain = chain_of(setup, scan);
-  const auto& view = setup.views.scanner_from_frame[scan];
+  const SessionScan& of = setup.scans[scan];
+  const ScanChain chain = of.session->chain_of(of.index);
+  const auto& view = of.session->views.scanner_from_frame[of.index];
   int part = -1;
   double part_from_s = 0, trace = 0;
-  setup.source.each_piece(scan, [&](const Scan& piece) {
+  of.session->source->each_piece(of.index, [&](const Scan& piece) {
     CarriedScan to =
         carried(view ? seen_from(*view, piece) : piece, chain, setup.scanner, setup.job.options.carrying);
     row.no_pose += to.no_pose;
@@ -174,7 +103,7 @@ void fuse_scan(Setup& setup, std::size_t scan, CloudFusion& fusion, FusedScanRow
       fusion.add(row.scan, part, to.poses, each.points);
       row.used += each.points.size();
       ScanSpots& spots = setup.spots[scan];
-      keep_spots(each, setup.source.surveys()[scan].points,
+      keep_spots(each, of.survey().points,
                  static_cast<std::size_t>(setup.job.options.registration.most_spots), spots);
       spots.noise = to.poses[each.points.front().pose].noise;
       spots.origin = to.poses[each.points.front().pose].workpiece_from_scanner.translation;
@@ -187,12 +116,12 @@ FusedCloud fuse_all(Setup& setup, FusedScans& result, const Progress& progress) 
   const CloudFusionOptions& options = setup.job.options.fusion;
   CloudFusion fusion(options);
   result.scans.clear();
-  setup.spots.assign(setup.source.entries().size(), {});
-  for (std::size_t i = 0; i < setup.source.entries().size(); ++i) {
-    const ScanEntry& entry = setup.source.entries()[i];
-    const ScanSurvey& survey = setup.source.surveys()[i];
+  setup.spots.assign(setup.scans.size(), {});
+  for (std::size_t i = 0; i < setup.scans.size(); ++i) {
+    const ScanEntry& entry = setup.scans[i].entry();
+    const ScanSurvey& survey = setup.scans[i].survey();
     FusedScanRow row;
-    row.scan = entry.scan;
+    row.scan = setup.scans[i].number;
     row.file = entry.file;
     row.body = entry.body;
     row.points = survey.points + survey.not_finite;
@@ -200,30 +129,12 @@ FusedCloud fuse_all(Setup& setup, FusedScans& result, const Progress& progress) 
     row.outliers = survey.outliers;
     fuse_scan(setup, i, fusion, row);
     result.scans.push_back(row);
-    progress("fusing scans", i + 1, setup.source.entries().size());
+    progress("fusing scans", i + 1, setup.scans.size());
   }
   return fusion.cloud();
 }
 
-/// Where each scan's frame is on the part at its middle moment, where that is told.
-std::vector<std::optional<RigidMotion>> places_of(const ScanSource& source,
-                                                  const std::map<std::string, ScanChain>& chains,
-                                                  const CarryOptions& options) {
-  std::vector<std::optional<RigidMotion>> places;
-  for (std::size_t i = 0; i < source.entries().size(); ++i) {
-    std::optional<double> time_s = source.entries()[i].time_s;
-    source.each_piece(i, [&](const Scan& piece) {
-      if (!piece.times_s.empty() || !time_s) time_s = piece.time_of(piece.in_scanner.size() / 2);
-    });
-    places.emplace_back();
-    if (!time_s) continue;
-    const auto pose = scanner_pose_at(chains.at(source.entries()[i].body), *time_s, options.largest_gap_s);
-    if (pose) places.back() = pose->workpiece_from_scanner;
-  }
-  return places;
-}
-
-void remark_on(const FuseScansJob& job, const ScanPoses& poses, FusedScans& result) {
+void remark_on(const FuseScansJob& job, const std::string& poses, FusedScans& result) {
   std::size_t left_out = 0, whole = 0;
   for (const FusedScanRow& row : result.scans) {
     left_out += row.no_pose + row.outside_run + row.gap;
@@ -232,7 +143,7 @@ void remark_on(const FuseScansJob& job, const ScanPoses& poses, FusedScans& resu
   if (left_out > 0) {
     result.remarks.push_back(
         fmt::format("{} points of {} have no pose at their time in {} and are left out{}", left_out,
-                    result.fused.points_in + left_out, poses.file.string(),
+                    result.fused.points_in + left_out, poses,
                     whole > 0 ? fmt::format("; {} scans are left out altogether", whole) : ""));
   }
   constexpr double kMany = 0.05;
@@ -255,10 +166,13 @@ void remark_on(const FuseScansJob& job, const ScanPoses& poses, FusedScans& resu
   }
 }
 
-void refuse_nothing_fused(const FusedScans& result, const ScanPoses& poses) {
+void refuse_nothing_fused(const FusedScans& result, const std::vector<ScanSession>& sessions,
+                          const std::string& poses) {
   if (!result.fused.points.empty()) return;
   std::set<std::string> bodies;
-  for (const PoseRecord& record : poses.records) bodies.insert(record.body);
+  for (const ScanSession& session : sessions) {
+    for (const PoseRecord& record : session.poses.records) bodies.insert(record.body);
+  }
   std::size_t no_pose = 0, outside = 0, gap = 0;
   for (const FusedScanRow& row : result.scans) {
     no_pose += row.no_pose;
@@ -268,7 +182,7 @@ void refuse_nothing_fused(const FusedScans& result, const ScanPoses& poses) {
   throw MeasurementError(fmt::format(
       "not one point has a pose at its time: {} of a body without poses in {} (there are: {}), {} before or "
       "after the run, {} while the tracker had lost the body",
-      no_pose, poses.file.string(), fmt::join(bodies, ", "), outside, gap));
+      no_pose, poses, fmt::join(bodies, ", "), outside, gap));
 }
 
 /// Without covariances a pose may be turned as much as moves the scan's rim by what scans lie apart.
@@ -279,7 +193,7 @@ void guess_turns(Setup& setup) {
     scan.origin.setZero();
     for (const SurfaceSpot& spot : scan.spots)
       scan.origin += spot.at / static_cast<double>(scan.spots.size());
-    const double sigma_rad = setup.pose_sigma_mm / (0.3 * setup.source.surveys()[i].across_mm);
+    const double sigma_rad = setup.pose_sigma_mm / (0.3 * setup.scans[i].survey().across_mm);
     scan.noise.setZero();
     scan.noise.topLeftCorner<3, 3>().diagonal().setConstant(sigma_rad * sigma_rad);
     scan.noise.bottomRightCorner<3, 3>().diagonal().setConstant(setup.pose_sigma_mm * setup.pose_sigma_mm);
@@ -314,34 +228,63 @@ double told_pose_sigma(const FusedCloud& fused) {
   return std::sqrt(std::max(0.0, fused.apart_mm * fused.apart_mm - fused.stated_mm * fused.stated_mm));
 }
 
+/// All scans in one row; a session whose numbers are taken is numbered on from the highest.
+std::vector<SessionScan> scans_of(const std::vector<ScanSession>& sessions, FusedScans& result) {
+  std::vector<SessionScan> scans;
+  std::set<int> taken;
+  const auto by_number = [](const ScanEntry& a, const ScanEntry& b) { return a.scan < b.scan; };
+  for (const ScanSession& session : sessions) {
+    const auto& entries = session.source->entries();
+    const bool free = std::none_of(entries.begin(), entries.end(),
+                                   [&](const ScanEntry& entry) { return taken.contains(entry.scan); });
+    const int lowest = std::min_element(entries.begin(), entries.end(), by_number)->scan;
+    const int shift = free ? 0 : *taken.rbegin() + 1 - lowest;
+    if (!free) {
+      result.remarks.push_back(fmt::format("scans of {} have numbers that are taken: {} is added to them",
+                                           session.poses.file.parent_path().string(), shift));
+    }
+    for (std::size_t i = 0; i < entries.size(); ++i) scans.push_back({&session, i, entries[i].scan + shift});
+    for (const ScanEntry& entry : entries) taken.insert(entry.scan + shift);
+  }
+  return scans;
+}
+
+std::vector<ScanSession> sessions_of(const FuseScansJob& job, const std::optional<Cell>& cell,
+                                     FusedScans& result, const Progress& progress) {
+  std::vector<ScanSession> sessions;
+  for (const std::filesystem::path& folder : job.scans) {
+    sessions.push_back(open_session(job, folder, cell, progress));
+    const ScanSession& session = sessions.back();
+    if (session.frame != sessions.front().frame) {
+      throw InputError(folder.string(),
+                       fmt::format("its cloud would be in the frame of `{}`, that of {} in `{}`; "
+                                   "give --reference or --alignment for both",
+                                   session.frame, job.scans.front().string(), sessions.front().frame));
+    }
+    for (const std::string& remark : session.remarks) {
+      if (std::find(result.remarks.begin(), result.remarks.end(), remark) == result.remarks.end())
+        result.remarks.push_back(remark);
+    }
+  }
+  result.frame = sessions.front().frame;
+  return sessions;
+}
+
 }  // namespace
 
 FusedScans fuse_scans(const FuseScansJob& job, const Progress& progress) {
+  require(!job.scans.empty(), "there is a folder of scans");
   FusedScans result;
-  if (!std::filesystem::is_directory(job.scans)) {
-    throw InputError(job.scans.string(), "is no folder; one with scans.csv and poses is needed");
-  }
   const std::optional<Cell> cell = cell_of_job(job);
-  std::vector<ScanEntry> entries = read_scan_entries(job.scans);
-  if (entries.empty()) throw InputError((job.scans / "scans.csv").string(), "names no scan");
-  const std::string platform = cell && cell->platform ? cell->platform->body : "";
-  const ScanPoses poses =
-      poses_of_scans(job.scans, {job.poses, job.reference, platform, job.poses_mm_each}, entries);
-  result.remarks = poses.remarks;
-  const auto chains = chains_of(job, cell, poses, entries, result);
-  const std::optional<Scanner> scanner = cell ? cell->scanner : std::nullopt;
-  const ScanSource source(job.scans, entries, job.scans_mm_each, scanner, job.options.surface, progress);
-  const ScanViews views = views_of(source.surveys(), places_of(source, chains, job.options.carrying));
-  result.remarks.insert(result.remarks.end(), views.remarks.begin(), views.remarks.end());
+  const std::vector<ScanSession> sessions = sessions_of(job, cell, result, progress);
+  const std::string poses = sessions.front().poses.file.string() + (sessions.size() > 1 ? ", …" : "");
 
-  Setup setup{job, source, chains, views, source.scanner(), 0};
-  if (views.stand_off_mm > 0) setup.scanner.stand_off_mm = views.stand_off_mm;
+  Setup setup{job, scans_of(sessions, result), sessions.front().source->scanner()};
+  if (const double set = sessions.front().views.stand_off_mm; set > 0) setup.scanner.stand_off_mm = set;
   result.fused = fuse_all(setup, result, progress);
-  refuse_nothing_fused(result, poses);
-  const bool exact = std::any_of(chains.begin(), chains.end(), [](const auto& chain) {
-    return !chain.second.scanner.covariance_known ||
-           (chain.second.reference && !chain.second.reference->covariance_known);
-  });
+  refuse_nothing_fused(result, sessions, poses);
+  const bool exact = std::any_of(sessions.begin(), sessions.end(),
+                                 [](const ScanSession& session) { return !session.covariance_known(); });
   if (exact && result.fused.shared > 0) {
     setup.pose_sigma_mm = told_pose_sigma(result.fused);
     result.fused = fuse_all(setup, result, progress);

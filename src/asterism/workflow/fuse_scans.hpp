@@ -34,10 +34,10 @@ void describe(FuseScansOptions& options, OptionVisitor& visit);
 
 /// What a user asks for.
 struct FuseScansJob {
-  std::filesystem::path scans;  // folder with scans.csv
+  std::vector<std::filesystem::path> scans;  // folders with scans.csv, each with its poses: one run or more
   std::filesystem::path out;  // the cloud's PLY file; fusion.json comes beside it; empty: nothing is written
-  std::string cell;           // file or built-in; empty: cell.toml in the folder, if any
-  std::filesystem::path poses;      // empty: track/poses.csv or poses.csv in the folder
+  std::string cell;           // file or built-in; empty: cell.toml in the first folder, if any
+  std::filesystem::path poses;      // empty: track/poses.csv or poses.csv in each folder
   std::string reference;            // body that carries the part; empty: the cell's platform
   std::filesystem::path alignment;  // empty: the cell's workpiece pose
   std::filesystem::path mesh;       // the part's surface; empty: the cell's

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -56,7 +58,7 @@ void write_ball(const TestFolder& folder, double mm_each, bool times = true) {
 
 FuseScansJob job_of(const TestFolder& folder, double mm_each) {
   FuseScansJob job;
-  job.scans = folder.path();
+  job.scans = {folder.path()};
   job.out = folder / "out" / "cloud.ply";
   job.scans_mm_each = mm_each;
   job.options.fusion.voxel_mm = 4;
@@ -111,6 +113,23 @@ TEST(FuseScans, LeavesOutAScanWithoutAPoseAndSaysSo) {
   EXPECT_TRUE(said);
 }
 
+TEST(FuseScans, PutsTwoRunsInOneCloudAndKeepsTheirNumbersApart) {
+  const TestFolder folder;
+  write_ball(folder, 1);
+  FuseScansJob job = job_of(folder, 1);
+  const FusedScans once = fuse_scans(job, no_progress);
+  job.scans.push_back(folder.path());
+  const FusedScans twice = fuse_scans(job, no_progress);
+  expect_ball(twice);
+  ASSERT_EQ(twice.scans.size(), 10u);
+  EXPECT_EQ(twice.scans[4].scan, 4);
+  EXPECT_EQ(twice.scans[5].scan, 5);
+  EXPECT_EQ(twice.fused.points_in, 2 * once.fused.points_in);
+  EXPECT_TRUE(std::any_of(twice.remarks.begin(), twice.remarks.end(), [](const std::string& remark) {
+    return remark.find("have numbers that are taken") != std::string::npos;
+  }));
+}
+
 TEST(FuseScans, TellsWhatIsWrong) {
   const TestFolder folder;
   write_ball(folder, 1);
@@ -128,7 +147,7 @@ TEST(FuseScans, TellsWhatIsWrong) {
   std::filesystem::remove(folder / "poses.csv");
   EXPECT_TELLS(input_error_of([&] { return fuse_scans(job, no_progress).scans.size(); }),
                "there are no poses");
-  job.scans = folder / "nowhere";
+  job.scans = {folder / "nowhere"};
   EXPECT_TELLS(input_error_of([&] { return fuse_scans(job, no_progress).scans.size(); }), "is no folder");
 }
 
