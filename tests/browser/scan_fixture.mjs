@@ -237,7 +237,7 @@ export function scans({ points, samples: sampleCount, sides, total }) {
     };
   };
   return {
-    schema: 'asterism-scan-report/1', title: 'Conical casing: where to scan, and one true cloud', subtitle: 'made up to look at the page; turning platform, 18 + 10 views', remarks: ['The clouds are made up.'],
+    schema: 'asterism-scan-report/1', title: 'Conical casing: where to scan, and one true cloud', subtitle: 'made up to look at the page; turning platform, 18 + 10 views', links: [{ text: 'the cell in motion', href: 'verify/report.html' }], remarks: ['The clouds are made up.'],
     summary: [
       { label: 'Views', value: '26', unit: 'views', note: 'The paper takes 72; both see the outer wall.', verdict: 'good' },
       { label: 'Measured', value: '63.1', unit: '% of the surface', note: 'Area share with at least three points within 5 mm.', verdict: 'attention' },

@@ -50,10 +50,13 @@ std::string scan_report_json(const ScanReport& report) {
   for (const auto& round : report.rounds) rounds.push_back(of_round(round, report, lists));
   for (const auto& table : report.tables) tables.push_back(json_of_table(table));
   for (const auto& chart : report.charts) charts.push_back(json_of_chart(chart));
+  Json links = Json::array();
+  for (const auto& link : report.links) links.push_back({{"text", link.text}, {"href", link.href}});
   const Json surface = of_surface(report, remarks);
   const Json json = {{"schema", "asterism-scan-report/1"},
                      {"title", report.title},
                      {"subtitle", report.subtitle},
+                     {"links", links},
                      {"summary", json_of_summary(report.summary)},
                      {"remarks", remarks},
                      {"scanner", json_of_scanner(report.scanner)},

@@ -28,7 +28,13 @@ struct ScanReport {
     std::optional<Deviation> deviation;  // one value a point of the cloud
   };
 
+  /// Another page that lies beside this one.
+  struct Link {
+    std::string text, href;  // relative to this page
+  };
+
   std::string title, subtitle;
+  std::vector<Link> links;
   std::vector<SummaryRow> summary;
   std::vector<std::string> remarks;
   Scanner scanner;                     // its field draws the frustums

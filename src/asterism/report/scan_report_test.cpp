@@ -76,9 +76,9 @@ Keys keys_of(const Json& object) {
 TEST(ScanReportJson, HasTheKeysThatThePageReads) {
   const Json json = json_of(small_report());
   EXPECT_EQ(json["schema"], "asterism-scan-report/1");
-  EXPECT_EQ(keys_of(json),
-            (Keys{"schema", "title", "subtitle", "summary", "remarks", "scanner", "surface", "sample_lists",
-                  "rounds", "tolerance_mm", "view_s", "turn_s", "tables", "charts", "options"}));
+  EXPECT_EQ(keys_of(json), (Keys{"schema", "title", "subtitle", "links", "summary", "remarks", "scanner",
+                                 "surface", "sample_lists", "rounds", "tolerance_mm", "view_s", "turn_s",
+                                 "tables", "charts", "options"}));
   EXPECT_EQ(keys_of(json["scanner"]),
             (Keys{"stand_off_mm", "near_mm", "far_mm", "field_width_mm", "field_height_mm", "baseline_mm",
                   "max_incidence_deg", "good_incidence_deg"}));

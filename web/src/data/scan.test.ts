@@ -37,7 +37,7 @@ function plan(): ScanPlan {
 /// The same small report as the program's own test has.
 function report(): ScanReport {
   return {
-    schema: 'asterism-scan-report/1', title: 't', subtitle: '', summary: [], remarks: [], options: null, tolerance_mm: 0.1, view_s: 5, turn_s: 10, tables: [], charts: [],
+    schema: 'asterism-scan-report/1', title: 't', subtitle: '', links: [], summary: [], remarks: [], options: null, tolerance_mm: 0.1, view_s: 5, turn_s: 10, tables: [], charts: [],
     scanner: { stand_off_mm: 300, near_mm: 200, far_mm: 400, field_width_mm: 350, field_height_mm: 310, baseline_mm: 160, max_incidence_deg: 60, good_incidence_deg: 45 },
     surface: { name: 'cone', role: 'workpiece', carrier: -1, vertices: 'AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA', triangles: 'AAAAAAEAAAACAAAA', error_mm: [] },
     sample_lists: [{ places: packed(new Float32Array([0, 0, 0, 1, 0, 0, 2, 0, 0])), normals: packed(new Int8Array([0, 0, 127, 0, 0, 127, 0, 0, 127])), areas_mm2: packed(new Float32Array([1, 1, 1])) }],

@@ -93,6 +93,7 @@ export interface ScanReport {
   schema: 'asterism-scan-report/1';
   title: string;
   subtitle: string;
+  links: { text: string; href: string }[];  // other pages beside this one
   summary: SummaryRow[];
   remarks: string[];
   scanner: Scanner;

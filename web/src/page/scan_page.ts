@@ -36,7 +36,7 @@ export function scanPage(report: ScanReport): PageContent {
   const refreshCharts = () => charts.forEach((chart) => chart.refresh());
   new ResizeObserver(refreshCharts).observe(chartPanel);
   const more = [...report.tables.map(tableSection), charts.length > 0 ? chartPanel : null, options];
-  if (report.rounds.length === 0) return { sections: [summary, ...more], keys: 'none', refresh: refreshCharts, beforePrint: () => {} };
+  if (report.rounds.length === 0) return { links: report.links, sections: [summary, ...more], keys: 'none', refresh: refreshCharts, beforePrint: () => {} };
 
   const space = scanPanel(report, data, report.surface && meshOfSolid(report.surface), shared);
   const plots = scanPlots(report, shared);
@@ -55,6 +55,7 @@ export function scanPage(report: ScanReport): PageContent {
   build();
   document.addEventListener('keydown', (event) => step(event, report, shared));
   return {
+    links: report.links,
     sections: [summary, h('div', { class: 'workspace', id: 'scans' }, space.element, plots.element), tables, ...more],
     keys: kKeys,
     refresh: () => {
