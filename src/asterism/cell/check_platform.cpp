@@ -13,7 +13,8 @@
 namespace asterism {
 namespace {
 
-constexpr double kSlack = 1 + 1e-6;  // a stroke used to its end is allowed, whatever the rounding
+constexpr double kSlack =
+    1 + 1e-4;  // a stroke used to its end is allowed, whatever rounding and smoothing add
 
 struct Axis {
   const char* name;

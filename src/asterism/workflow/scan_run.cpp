@@ -16,7 +16,8 @@ namespace {
 constexpr double kStop_s = 1e-3;
 constexpr double kShortest_s = 0.1;    // of any move
 constexpr double kFramesAround = 2.5;  // a pass, in which its motion is met already
-constexpr double kPeak = 1.6;          // a cubic from rest to rest is 1.5 times as fast in its middle
+constexpr double kPeak = 1.7;          // a cubic from rest to rest is 1.5 times as fast in its middle
+constexpr int kTurnKeys = 12;          // between two poses of the platform
 
 /// Keys of one body, in order of time.
 class Keys {
@@ -82,6 +83,10 @@ std::vector<RigidMotion> around(const RigidMotion& from, const RigidMotion& to, 
   return {{from.rotation.slerp(0.5, to.rotation), middle + radius_mm * out}};
 }
 
+Vec3 angles_of(const PlatformPose& pose) {
+  return {rad_from_deg(pose.yaw_deg), rad_from_deg(pose.pitch_deg), rad_from_deg(pose.roll_deg)};
+}
+
 class Run {
  public:
   Run(const Cell& cell, const ScanPlan& plan, const ScanRunOptions& options)
@@ -105,6 +110,7 @@ class Run {
     const RigidMotion carrier = plan_.poses[view.platform_pose].tracker_from_platform;
     const RigidMotion scanner = carrier * part_.carrier_from_workpiece * view.workpiece_from_scanner;
     const double from_s = go(view, carrier, scanner);
+    turn(from_s, view.platform_pose);
     const double to_s = from_s + view_s_ + 2 * margin_s_;
     scanner_.rest(from_s, to_s, scanner * body_from_scanner_.inverse());
     sway(from_s, to_s, carrier);
@@ -170,6 +176,22 @@ class Run {
     return now_s_ + stretch * all_s;
   }
 
+  /// The platform's way to a pose that ends at a moment, by its own axes: the shortest turn between two poses
+  /// at the end of their stroke would lead beyond it. It sags towards rest on the way, so that smoothing does
+  /// not lead there either.
+  void turn(double to_s, std::size_t pose) {
+    const Vec3 from = angles_, to = angles_of(plan_.poses[pose]);
+    angles_ = to;
+    if (options_.sway_deg != 0 || !cell_.platform || part_.carrier < 0 || (to - from).norm() < 1e-9) return;
+    const double begin_s = now_s_ + kStop_s;
+    for (int i = 1; i < kTurnKeys; ++i) {
+      const double u = static_cast<double>(i) / kTurnKeys, share = u * u * (3 - 2 * u);
+      const Vec3 angles = (1 - 0.4 * share * (1 - share)) * (from + share * (to - from));
+      const Quaternion turned = rotation_from_yaw_pitch_roll(angles[0], angles[1], angles[2]);
+      carrier_.add(begin_s + u * (to_s - begin_s), base_ * rotation_about(cell_.platform->pivot_mm, turned));
+    }
+  }
+
   void sway(double from_s, double to_s, const RigidMotion& carrier) {
     if (options_.sway_deg == 0) return carrier_.rest(from_s, to_s, carrier);
     const RigidMotion begin = swayed(carrier, -1), end = swayed(carrier, 1);
@@ -186,6 +208,7 @@ class Run {
   double view_s_, margin_s_;
   RigidMotion body_from_scanner_, base_;
   Keys carrier_, scanner_;
+  Vec3 angles_ = Vec3::Zero();  // of the platform: yaw, pitch, roll
   std::vector<ScanPass> passes_;
   double now_s_ = 0;
   RigidMotion at_;  // the scanner, after the last view
