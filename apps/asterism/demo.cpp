@@ -20,8 +20,24 @@ nlohmann::ordered_json json_of(const DemoResult& result) {
       {"tracking_s", result.tracking_s},
       {"verifying_s", result.verifying_s},
       {"verdict", {{"pass", result.verdict.pass}, {"words", result.verdict.words}}},
+      {"layouts", result.layouts},
+      {"scanning_s", result.scanning_s},
       {"report", result.report.string()},
+      {"cell_page", result.cell_page.string()},
+      {"layout_page", result.layout_page.string()},
       {"tracking_page", result.tracking_page.string()}};
+  for (const SummaryRow& row : result.summary) {
+    json["summary"].push_back(
+        {{"what", row.label}, {"value", row.value}, {"unit", row.unit}, {"definition", row.note}});
+  }
+  for (const ScanRound& round : result.scans) {
+    nlohmann::ordered_json scans = {{"round", round.name},
+                                    {"plan", round.plan.in_words},
+                                    {"views", round.plan.views.size()},
+                                    {"points", round.fused.cloud.size()}};
+    if (round.fused.completeness) scans["measured"] = round.fused.completeness->share();
+    json["rounds"].push_back(scans);
+  }
   for (const PoseErrors& errors : result.errors) {
     nlohmann::ordered_json body = {{"body", errors.body},
                                    {"found", errors.found()},
@@ -50,13 +66,24 @@ std::string text_of(const DemoResult& result) {
                         e.translation_mm.max, e.rotation_deg.rms, e.rotation_deg.max,
                         e.honesty ? fmt::format("{:.2f}", e.honesty->mean_nees / 6) : "");
   }
-  return text +
-         fmt::format(
-             "\n  translation at the targets' centroid; NEES/6 = 1: the stated covariance is honest\n\n"
-             "  the cell in motion: {}\n\n"
-             "  report: {}\n"
-             "  frame by frame: {}\n",
-             result.verdict.words, result.report.string(), result.tracking_page.string());
+  text += fmt::format(
+      "\n  translation at the targets' centroid; NEES/6 = 1: the stated covariance is honest\n\n"
+      "  the cell in motion: {}\n\n",
+      result.verdict.words);
+  for (const ScanRound& round : result.scans) {
+    text += fmt::format("  {}: {}, planned in {:.1f} s; {} points in the cloud{}\n", round.name,
+                        round.plan.in_words, round.planning_s, round.fused.cloud.size(),
+                        round.fused.completeness ? fmt::format(", {:.1f} % of the surface measured",
+                                                               100 * round.fused.completeness->share())
+                                                 : "");
+  }
+  text += "\n";
+  for (const SummaryRow& row : result.summary) {
+    text += fmt::format("  {:<30} {:>9} {:<24}\n", row.label, row.value, row.unit);
+  }
+  return text + fmt::format("\n  report: {}\n  the cell in motion: {}\n  layouts: {}\n  frame by frame: {}\n",
+                            result.report.string(), result.cell_page.string(), result.layout_page.string(),
+                            result.tracking_page.string());
 }
 
 void run(const DemoJob& job, const Common& common) {

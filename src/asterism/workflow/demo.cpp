@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,8 @@
 #include "asterism/io/options_file.hpp"
 #include "asterism/io/pose_table.hpp"
 #include "asterism/report/tracking_report.hpp"
+#include "asterism/workflow/design_layout.hpp"
+#include "asterism/workflow/scan_story_report.hpp"
 
 namespace asterism {
 namespace {
@@ -113,10 +116,30 @@ void report(const DemoJob& job, const Recording& recording, const std::vector<Po
   write_report(result.tracking_page, page);
 }
 
+/// Where the targets should go: a short search, for the front and what each layout gives up.
+void design(const Cell& cell, const DemoJob& job, const Progress& progress, DemoResult& result) {
+  DesignJob search;
+  search.out = job.out / "layout";
+  search.checkpoint_seconds = 1e9;
+  search.options.optimizer.population = job.quick ? 24 : 48;
+  search.options.optimizer.generations = job.quick ? 5 : 40;
+  search.options.optimizer.seed = job.seed;
+  const LayoutProblem problem(cell, search.options);
+  const auto generations = static_cast<std::size_t>(search.options.optimizer.generations);
+  const DesignedLayouts designed =
+      search_layouts(cell, problem, search, [&, done = std::size_t{0}](const Optimizer&) mutable {
+        progress("searching layouts", ++done, generations);
+        return true;
+      });
+  result.layouts = designed.result.front.size();
+  result.layout_page = search.out / "report.html";
+}
+
 /// Along the motion: what will be seen, how good it is, what becomes of it under faults.
-void verify(const Cell& cell, const DemoJob& job, const Progress& progress, DemoResult& result) {
+void verify(const Cell& cell, const DemoJob& job, const Progress& progress, DemoResult& result,
+            HeadlineFigures& headline) {
   VerifyJob verification;
-  verification.out = job.out;
+  verification.out = job.out / "verify";
   verification.seed = job.seed;
   if (job.quick) {
     verification.options.repeats = 2;
@@ -124,17 +147,37 @@ void verify(const Cell& cell, const DemoJob& job, const Progress& progress, Demo
     verification.options.budget_blocks = 2;
     verification.options.faults = verification.options.fusion = verification.options.speed = false;
   }
-  result.verdict = verify_cell(cell, verification, progress).verdict;
+  const VerifiedCell verified = verify_cell(cell, verification, progress);
+  result.verdict = verified.verdict;
+  const auto& coverage = verified.watched.coverage;
+  if (!coverage.empty()) headline.least_coverage = *std::min_element(coverage.begin(), coverage.end());
+  result.cell_page = verification.out / "report.html";
+}
+
+/// Plan, scan, fuse, and once more for what is missing; told beside the paper's headline figures.
+void scan(const Cell& cell, const DemoJob& job, const Progress& progress, DemoResult& result,
+          HeadlineFigures& headline) {
+  result.scans = tell_scan_story(cell, {job.out, job.quick, job.seed}, progress);
+  headline.errors = result.errors;
+  headline.rings = plan_on_rings(cell, {job.out, job.quick, job.seed}, progress);
+  ScanReport page = story_report(cell, result.scans, headline);
+  page.links = {{"where the targets should go", "layout/report.html"},
+                {"the cell in motion", "verify/report.html"},
+                {"the dynamic scan, frame by frame", "track/report.html"}};
+  result.summary = page.summary;
   result.report = job.out / "report.html";
+  write_scan_report(result.report, page);
 }
 
 }  // namespace
 
 DemoResult run_demo(const DemoJob& job, const Progress& progress) {
-  Cell cell = cell_of("engine_casing");
+  const Cell whole = cell_of("engine_casing");
+  Cell cell = whole;
   if (job.quick) cell.timing.frames /= 5;
   DemoResult result;
   result.cell = cell.name;
+  design(cell, job, progress, result);
 
   auto start = std::chrono::steady_clock::now();
   SimulateJob simulate{job.out / "recording", {}};
@@ -154,9 +197,14 @@ DemoResult run_demo(const DemoJob& job, const Progress& progress) {
   evaluate(recording, truth, result);
   report(job, recording, truth, track.options, result);
 
+  HeadlineFigures headline;
   start = std::chrono::steady_clock::now();
-  verify(cell, job, progress, result);
+  verify(cell, job, progress, result, headline);
   result.verifying_s = seconds_since(start);
+
+  start = std::chrono::steady_clock::now();
+  scan(whole, job, progress, result, headline);
+  result.scanning_s = seconds_since(start);
   return result;
 }
 
