@@ -31,6 +31,7 @@ void add_body(CLI::App& root, Common& common);
 void add_reproduce(CLI::App& root, Common& common);
 void add_layout(CLI::App& root, Common& common);
 void add_align(CLI::App& root, Common& common);
+void add_hand_eye(CLI::App& root, Common& common);
 void add_fuse(CLI::App& root, Common& common);
 void add_schema(CLI::App& root, Common& common);
 void add_compare(CLI::App& root, Common& common);

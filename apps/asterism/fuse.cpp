@@ -58,6 +58,9 @@ void add_fuse(CLI::App& root, Common& common) {
                       "poses CSV, where it is neither track/poses.csv nor poses.csv");
   command->add_option("--reference", call->job.reference,
                       "body that carries the part; else the cell's platform");
+  command->add_option(
+      "--hand-eye", call->job.hand_eye,
+      "where the scanner sits in its body, as `asterism hand-eye` tells; else as the cell says");
   command->add_option("--alignment", call->job.alignment, "where the part sits, as `asterism align` tells");
   const std::vector<std::string>& units = length_unit_words();
   command->add_option("--unit", call->unit, "of the scans' numbers")

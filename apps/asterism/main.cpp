@@ -25,9 +25,9 @@ using AddCommand = void (*)(CLI::App&, Common&);
 
 /// In the order of `asterism --help`.
 const std::vector<AddCommand> kCommands = {
-    add_demo,     add_calibrate, add_check_rig, add_body,    add_detect,    add_triangulate,
-    add_identify, add_track,     add_evaluate,  add_layout,  add_simulate,  add_verify,
-    add_align,    add_plan,      add_fuse,      add_compare, add_reproduce, add_schema};
+    add_demo,  add_calibrate, add_check_rig, add_body,      add_detect, add_triangulate, add_identify,
+    add_track, add_evaluate,  add_layout,    add_simulate,  add_verify, add_align,       add_hand_eye,
+    add_plan,  add_fuse,      add_compare,   add_reproduce, add_schema};
 
 /// The called command, or the called one of its own commands, and its whole name ("layout evaluate");
 /// nothing where none was called.

@@ -39,6 +39,7 @@ struct FuseScansJob {
   std::string cell;           // file or built-in; empty: cell.toml in the first folder, if any
   std::filesystem::path poses;      // empty: track/poses.csv or poses.csv in each folder
   std::string reference;            // body that carries the part; empty: the cell's platform
+  std::filesystem::path hand_eye;   // empty: the cell's scanner pose
   std::filesystem::path alignment;  // empty: the cell's workpiece pose
   std::filesystem::path mesh;       // the part's surface; empty: the cell's
   MeshScale mesh_scale;

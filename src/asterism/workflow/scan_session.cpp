@@ -8,6 +8,7 @@
 
 #include "asterism/core/result.hpp"
 #include "asterism/io/alignment_file.hpp"
+#include "asterism/io/hand_eye_file.hpp"
 #include "asterism/io/scan_folder.hpp"
 
 namespace asterism {
@@ -62,10 +63,15 @@ std::map<std::string, ScanChain> chains_of(const FuseScansJob& job, const std::o
   if (cell && cell->scanner) {
     chain.body_from_scanner = cell->scanner->body_from_scanner;
     chain.of_body_from_scanner = place_covariance(*cell->scanner);
-  } else {
+  } else if (job.hand_eye.empty()) {
     result.remarks.emplace_back(
         "no scanner is known (--cell): its frame is taken as that of its body, and its "
         "noise as what the scans themselves tell");
+  }
+  if (!job.hand_eye.empty()) {
+    const KnownMotion measured = read_hand_eye(job.hand_eye);
+    chain.body_from_scanner = measured.motion;
+    chain.of_body_from_scanner = measured.covariance;
   }
   std::map<std::string, ScanChain> chains;
   bool covariance = !chain.reference || chain.reference->covariance_known;
