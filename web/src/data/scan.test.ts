@@ -74,7 +74,7 @@ describe('a scan report', () => {
     const one = report();
     expect(parseReport(JSON.stringify(one)).schema).toBe('asterism-scan-report/1');
     // The same lists as in src/asterism/report/scan_report_test.cpp.
-    expect(Object.keys(one).sort()).toEqual(['charts', 'options', 'remarks', 'rounds', 'sample_lists', 'scanner', 'schema', 'subtitle', 'summary', 'surface', 'tables', 'title', 'tolerance_mm', 'turn_s', 'view_s']);
+    expect(Object.keys(one).sort()).toEqual(['charts', 'links', 'options', 'remarks', 'rounds', 'sample_lists', 'scanner', 'schema', 'subtitle', 'summary', 'surface', 'tables', 'title', 'tolerance_mm', 'turn_s', 'view_s']);
     expect(Object.keys(one.rounds[0].plan!).sort()).toEqual(['bound', 'candidates', 'coverable_mm2', 'covered_before', 'covered_before_mm2', 'covered_mm2', 'greedy_views', 'in_words', 'limits', 'nearest_neighbour_s', 'optimal', 'poses', 'reachable_mm2', 'remarks', 'samples', 'surface_mm2', 'tour_s', 'views']);
     expect(Object.keys(one.rounds[0].plan!.views[0]).sort()).toEqual(['adds_mm2', 'beyond_good_incidence', 'mean_incidence_deg', 'measures', 'platform', 'platform_targets', 'pose', 'scanner_targets', 'starts_s', 'worst_sigma_mm']);
     expect(Object.keys(one.rounds[0].cloud!).sort()).toEqual(['drawn', 'fields', 'low_mm', 'normals', 'places', 'points', 'step_mm', 'voxel_mm']);
