@@ -94,8 +94,9 @@ void add_figures(Chapter& chapter, const Scanned& cone, const Scanned& casing) {
 void add_savings(Chapter& chapter, const Scanned& cone) {
   const FewestViews fewest = fewest_views_of_outer_wall(cone.part);
   chapter.rows.push_back(
-      judge({"T16.fewest", "Table 16", "72 stations are needed for the outer wall of the bare cone", "72"},
-            fmt::format("{} views see 99 % of it; no choice of these 3,000 candidates needs fewer than {}",
+      judge({"T16.fewest", "Table 16",
+             "the optimised number of stations, for the outer wall of the bare cone", "72"},
+            fmt::format("{} views see 99 % of it; no choice of these 2,000 candidates needs fewer than {}",
                         fewest.views, fewest.bound),
             fewest.views >= 72,
             {"set cover over views at the stand-off; field, range and incidence of Table 8",

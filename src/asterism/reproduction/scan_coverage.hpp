@@ -39,7 +39,7 @@ struct ScannedPart {
 [[nodiscard]] double share_of_outer(const ScannedPart& part, std::span<const std::uint8_t> measured);
 [[nodiscard]] double share_of_whole(const ScannedPart& part, std::span<const std::uint8_t> measured);
 
-/// The fewest of 3,000 views that were found for 99 % of what they measure of the outer wall, how few no
+/// The fewest of 2,000 views that were found for 99 % of what they measure of the outer wall, how few no
 /// choice of them goes below, and that share of the outer wall's area.
 struct FewestViews {
   std::size_t views = 0, bound = 0;
