@@ -129,10 +129,9 @@ void plan(const std::string& name, const Cell& cell, const PlanOptions& options,
   PlanOptions without = options;  // the same plan again for its tour; its cover need not be found anew
   without.cover.exact_s = 0;
   const ScanPlan whole = plan_scans(cell, without, kSeed, {}, no_progress);
-  table.row({name, fmt::format("ours, {} % of coverable", 100 * cell.scan_task.share),
-             fmt::format("{:.0f}", cover.cost), fmt::format("{:.0f}", cover.bound),
-             cover.optimal ? "yes" : "no", fmt::format("{:.1f}", 100 * cover.gap()),
-             fmt::format("{:.0f}", cover.greedy_cost),
+  table.row({name, fmt::format("ours, {} %", 100 * cell.scan_task.share), fmt::format("{:.0f}", cover.cost),
+             fmt::format("{:.0f}", cover.bound), cover.optimal ? "yes" : "no",
+             fmt::format("{:.1f}", 100 * cover.gap()), fmt::format("{:.0f}", cover.greedy_cost),
              fmt::format("{:.1f}", 100 * whole.coverable_mm2 / whole.surface_mm2),
              fmt::format("{:.1f}", trying_s), fmt::format("{:.1f}", solving_s),
              fmt::format("{:.0f}", whole.tour_s), fmt::format("{:.0f}", whole.nearest_neighbour_s)});

@@ -5,46 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "asterism/io/options_file.hpp"
+#include "asterism/workflow/cloud_tables.hpp"
 #include "asterism/workflow/fuse_scans.hpp"
 
 namespace asterism {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
-Json json_of(const DeviationSummary& summary) {
-  return {{"region", summary.region.empty() ? "whole" : summary.region},
-          {"points", summary.points},
-          {"beyond", summary.beyond},
-          {"mean_mm", summary.mean_mm},
-          {"rms_mm", summary.rms_mm},
-          {"sigma_mm", summary.sigma_mm},
-          {"p05_mm", summary.p05_mm},
-          {"median_mm", summary.median_mm},
-          {"p95_mm", summary.p95_mm},
-          {"lowest_mm", summary.lowest_mm},
-          {"highest_mm", summary.highest_mm},
-          {"in_tolerance", summary.in_tolerance},
-          {"below", summary.below},
-          {"above", summary.above},
-          {"predicted_rms_mm", summary.predicted_rms_mm}};
-}
-
-Json json_of(const Completeness& completeness) {
-  Json json = {{"share", completeness.share()},
-               {"surface_mm2", completeness.surface_mm2},
-               {"measured_mm2", completeness.measured_mm2},
-               {"holes", Json::array()}};
-  for (const Hole& hole : completeness.holes) {
-    json["holes"].push_back({{"area_mm2", hole.area_mm2},
-                             {"centre_mm", json_of(hole.centre)},
-                             {"normal", json_of(hole.normal)},
-                             {"across_mm", hole.across_mm}});
-  }
-  return json;
-}
 
 Json json_of(const Registration& found) {
   return {{"pairs", found.pairs},
@@ -147,11 +114,7 @@ nlohmann::ordered_json summary_of(const FusedScans& fused, const FuseScansJob& j
                {"remarks", fused.remarks}};
   for (const FusedScanRow& row : fused.scans) json["scans"].push_back(json_of(row));
   if (fused.completeness) json["completeness"] = json_of(*fused.completeness);
-  if (const auto& deviation = fused.deviation) {
-    json["deviation"] = json_of(deviation->whole);
-    for (const DeviationSummary& region : deviation->regions) json["regions"].push_back(json_of(region));
-    json["histogram"] = {{"bin_mm", deviation->bin_mm}, {"counts", deviation->histogram}};
-  }
+  if (fused.deviation) json["deviation"] = json_of(*fused.deviation, job.options.deviation);
   json["options"] = json_of_options(describing(options));
   return json;
 }
