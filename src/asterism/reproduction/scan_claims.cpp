@@ -39,12 +39,12 @@ std::string shares(const ScannedPart& part, std::span<const std::uint8_t> measur
 Exhibit unrolled(const std::string& id, const std::string& title, const std::string& caption,
                  const Scanned& scanned, std::span<const std::uint8_t> measured) {
   Plot plot({"azimuth (°)", -180, 180, {}}, {"height (mm)", 0, 560, {}}, 620, 300);
-  plot.legend({{"soft filled", "measured"}, {"s3 filled", "missing"}});
+  plot.legend({{"soft filled", "measured"}, {"s2 filled", "missing"}});
   for (std::size_t i = 0; i < measured.size(); ++i) {
     if (scanned.part.outer[i] == 0) continue;
     const Vec3& at = scanned.part.samples[i].at;
     const Vec2 place(deg_from_rad(std::atan2(at.y(), at.x())), at.z());
-    plot.point(place, measured[i] != 0 ? "soft filled" : "s3 filled", measured[i] != 0 ? 1.2 : 2.2);
+    plot.point(place, measured[i] != 0 ? "soft filled" : "s2 filled", measured[i] != 0 ? 1.6 : 2.6);
   }
   return {id, title, caption, plot.str(title)};
 }
