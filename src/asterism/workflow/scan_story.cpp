@@ -76,7 +76,8 @@ std::vector<ScanRound> tell_scan_story(const Cell& cell, const ScanStoryJob& job
 
     start = std::chrono::steady_clock::now();
     folders.push_back(job.out / (turned ? "rescan" : "scan"));
-    carry_out(cell, round.plan, scans + 1, folders.back(), job.seed + (turned ? 1 : 0), progress);
+    // One seed for both: the scanner's own error of place is drawn once a seed, and it is one scanner.
+    carry_out(cell, round.plan, scans + 1, folders.back(), job.seed, progress);
     scans += static_cast<int>(round.plan.views.size());
     round.scanning_s = seconds_since(start);
 
