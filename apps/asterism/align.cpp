@@ -12,6 +12,7 @@
 #include "asterism/io/mesh_file.hpp"
 #include "asterism/io/mesh_scale.hpp"
 #include "asterism/scanning/alignment.hpp"
+#include "asterism/workflow/probed_points.hpp"
 #include "commands.hpp"
 #include "common.hpp"
 
@@ -19,25 +20,15 @@ namespace asterism::app {
 namespace {
 
 struct Call {
-  std::string probed, out, nominal, planes, cell, mesh, mesh_unit;
-  double sigma_mm = 0.02, ball_mm = 0, free_mm = 0.5, within_mm = 200;
+  ProbedFile probed;
+  std::string out, nominal, planes, cell, mesh, mesh_unit;
+  double ball_mm = 0, free_mm = 0.5, within_mm = 200;
   std::optional<double> longest_mm;
   bool flip = false;
 };
 
 Vec3 place_in(const CsvTable& table, std::size_t row) {
   return {table.number(row, "x_mm"), table.number(row, "y_mm"), table.number(row, "z_mm")};
-}
-
-std::vector<ProbedPoint> read_probed(const Call& call) {
-  const CsvTable table(call.probed, {"x_mm", "y_mm", "z_mm"});
-  std::vector<ProbedPoint> points;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const double sigma = table.optional_number(row, "sigma_mm").value_or(call.sigma_mm);
-    if (!(sigma > 0)) table.refuse(row, "sigma_mm", "must be positive");
-    points.push_back({table.text(row, "name"), place_in(table, row), sigma * sigma * Mat3::Identity()});
-  }
-  return points;
 }
 
 Alignment by_points(const Call& call, const std::vector<ProbedPoint>& probed) {
@@ -119,7 +110,7 @@ Alignment aligned(const Call& call) {
     throw InputError("command line",
                      "one of --nominal (points), --planes (3-2-1), --cell or --mesh (best fit) is needed");
   }
-  const std::vector<ProbedPoint> probed = read_probed(call);
+  const std::vector<ProbedPoint> probed = read_probed(call.probed);
   if (!call.nominal.empty()) return by_points(call, probed);
   if (!call.planes.empty()) return by_planes(call, probed);
   return by_surface(call, probed);
@@ -153,8 +144,15 @@ void add_align(CLI::App& root, Common& common) {
                   "  asterism align probed.csv --planes datums.csv --ball-mm 1.5 --out alignment.json\n"
                   "  asterism align probed.csv --cell cell.toml --out alignment.json");
   auto call = std::make_shared<Call>();
-  command->add_option("probed", call->probed, "CSV name,x_mm,y_mm,z_mm[,sigma_mm] in the platform's frame")
+  command
+      ->add_option("probed", call->probed.points,
+                   "CSV name,x_mm,y_mm,z_mm[,sigma_mm] in the platform's frame; with --poses in the "
+                   "tracker's, and frame")
       ->required();
+  command->add_option("--poses", call->probed.poses,
+                      "the tracker's poses CSV: where the platform was in each frame");
+  command->add_option("--platform", call->probed.platform, "the platform's body in it")
+      ->capture_default_str();
   command->add_option("--out", call->out, "JSON file for `asterism fuse --alignment`")->required();
   command->add_option("--nominal", call->nominal, "CSV name,x_mm,y_mm,z_mm in the part's frame: by points");
   command->add_option("--planes", call->planes,
@@ -168,7 +166,9 @@ void add_align(CLI::App& root, Common& common) {
       ->add_option("--longest-mm", call->longest_mm, "longest edge of the mesh's box, in place of its unit")
       ->check(CLI::PositiveNumber);
   command->add_flag("--flip", call->flip, "the mesh's triangles face inwards");
-  command->add_option("--sigma-mm", call->sigma_mm, "of a probed point, each axis, where the file tells none")
+  command
+      ->add_option("--sigma-mm", call->probed.sigma_mm,
+                   "of a probed point, each axis, where the file tells none")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--ball-mm", call->ball_mm, "radius of the probe's ball, when its centre is told")

@@ -55,10 +55,10 @@ void add_hand_eye(CLI::App& root, Common& common) {
   command->add_option("--body", call->job.body, "body that carries the scanner")->capture_default_str();
   command->add_option("--reference", call->job.reference,
                       "body that carries the artefact; else it stands still before the tracker");
-  command->add_option("--sigma-mm", call->job.sigma_mm, "of poses without sigmas, each axis")
+  command->add_option("--sigma-mm", call->job.stated.mm, "of poses without sigmas, each axis")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--sigma-deg", call->job.sigma_deg, "of their attitudes, each axis")
+  command->add_option("--sigma-deg", call->job.stated.deg, "of their attitudes, each axis")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--out", call->out, "JSON file for `asterism fuse --hand-eye`");

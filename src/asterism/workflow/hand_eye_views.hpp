@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asterism/scanning/hand_eye.hpp"
+#include "asterism/workflow/poses_by_frame.hpp"
 
 namespace asterism {
 
@@ -15,7 +16,7 @@ struct HandEyeJob {
   std::filesystem::path poses;     // poses CSV of the tracker
   std::string body = "scanner";    // carries the scanner
   std::string reference;           // carries the artefact; empty: it stands still before the tracker
-  double sigma_mm = 0.02, sigma_deg = 0.005;  // of poses without a covariance of their own, each axis
+  StatedSigma stated;              // of poses without a covariance of their own
 };
 
 /// The frames that both files tell. Throws InputError where there is none, or a body is not there.

@@ -35,7 +35,7 @@ HandEyeJob write_views(const TestFolder& folder) {
     if (i == 5) continue;
     tracked += line(i, "plate", tracker_from_plate) + line(i, "scanner", tracker_from_body);
   }
-  return {folder.write("seen.csv", seen), folder.write("poses.csv", tracked), "scanner", "plate"};
+  return {folder.write("seen.csv", seen), folder.write("poses.csv", tracked), "scanner", "plate", {}};
 }
 
 TEST(HandEyeViews, FindTheScannerInItsBodyThoughThePlateMoves) {
