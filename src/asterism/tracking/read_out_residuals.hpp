@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "asterism/measurement/reading.hpp"
 #include "asterism/measurement/pose_curve.hpp"
+#include "asterism/measurement/reading.hpp"
 
 namespace asterism {
 

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 import * as THREE from 'three';
 import type { Samples } from '../data/scan';
-import type { SamplePaint } from './sample_paint';
+
+/// What is told of each sample, as colours on the part.
+export interface SamplePaint {
+  object: THREE.Object3D;
+  /// A colour each; null leaves it out.
+  paint: (colourOf: (sample: number) => string | null) => void;
+}
 
 /// A small disc on the surface at each sample, as large as the area that it stands for; seen from outside only.
 export function sampleDiscs(samples: Samples, lift_mm: number): SamplePaint {

@@ -3,14 +3,7 @@ import * as THREE from 'three';
 import type { Samples } from '../data/scan';
 import { paintedSurface } from '../data/surface_paint';
 import type { Mesh } from '../data/mesh';
-import { sampleDiscs } from './sample_discs';
-
-/// What is told of each sample, as colours on the part.
-export interface SamplePaint {
-  object: THREE.Object3D;
-  /// A colour each; null leaves it out.
-  paint: (colourOf: (sample: number) => string | null) => void;
-}
+import { sampleDiscs, type SamplePaint } from './sample_discs';
 
 /// On the surface itself where there is one, else as discs at the samples.
 export function samplePaint(samples: Samples, mesh: Mesh | null, lift_mm: number): SamplePaint {
