@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -91,11 +90,7 @@ Alignment by_surface(const Call& call, const std::vector<ProbedPoint>& probed) {
     MeshScale scale;
     scale.longest_mm = call.longest_mm;
     scale.flip = call.flip;
-    if (!call.mesh_unit.empty()) {
-      const std::vector<std::string>& words = length_unit_words();
-      scale.unit =
-          static_cast<LengthUnit>(std::find(words.begin(), words.end(), call.mesh_unit) - words.begin());
-    }
+    scale.unit = length_unit_of(call.mesh_unit);
     surface = checked_mesh(read_mesh(call.mesh), scale, call.mesh);
     starts = starts_of(surface, probed);
   }

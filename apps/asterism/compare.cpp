@@ -22,12 +22,6 @@ struct Call {
   std::optional<double> longest_mm;
 };
 
-std::optional<LengthUnit> unit_of(const std::string& word) {
-  if (word.empty()) return std::nullopt;
-  const std::vector<std::string>& words = length_unit_words();
-  return static_cast<LengthUnit>(std::find(words.begin(), words.end(), word) - words.begin());
-}
-
 std::string text_of(const ComparedCloud& compared, const CompareJob& job) {
   std::string text =
       fmt::format("\n{}: {} points against {}\n\n  complete: {:.1f} % of {:.4g} m², {} areas missing\n",
@@ -44,8 +38,8 @@ void run(const Call& call, const CompareOptions& options, const Common& common) 
   CompareJob job = call.job;
   job.options = options;
   job.seed = common.seed;
-  job.unit = unit_of(call.unit);
-  job.mesh_scale.unit = unit_of(call.mesh_unit);
+  job.unit = length_unit_of(call.unit);
+  job.mesh_scale.unit = length_unit_of(call.mesh_unit);
   job.mesh_scale.longest_mm = call.longest_mm;
   const ComparedCloud compared = compare_cloud(job, make_progress(common));
   for (const std::string& remark : compared.remarks) print_warning(remark);

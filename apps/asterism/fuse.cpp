@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "asterism/core/result.hpp"
@@ -16,24 +15,14 @@ struct Call {
   std::optional<double> longest_mm;
 };
 
-double mm_of_unit(const std::string& unit) {
-  if (unit == "m") return 1000;
-  if (unit == "cm") return 10;
-  return unit == "inch" ? 25.4 : 1;
-}
-
 void run(const Call& call, const FuseScansOptions& options, const Common& common) {
   FuseScansJob job = call.job;
   job.options = options;
   job.seed = common.seed;
-  job.scans_mm_each = mm_of_unit(call.unit);
-  job.poses_mm_each = mm_of_unit(call.poses_unit);
+  job.scans_mm_each = mm_of(length_unit_of(call.unit).value());
+  job.poses_mm_each = mm_of(length_unit_of(call.poses_unit).value());
   job.mesh_scale.longest_mm = call.longest_mm;
-  if (!call.mesh_unit.empty()) {
-    const std::vector<std::string>& words = length_unit_words();
-    job.mesh_scale.unit =
-        static_cast<LengthUnit>(std::find(words.begin(), words.end(), call.mesh_unit) - words.begin());
-  }
+  job.mesh_scale.unit = length_unit_of(call.mesh_unit);
   const FusedScans fused = fuse_scans(job, make_progress(common));
   for (const std::string& remark : fused.remarks) print_warning(remark);
   print_result(common, summary_of(fused, job), text_of(fused));

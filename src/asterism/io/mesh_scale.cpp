@@ -64,6 +64,13 @@ const std::vector<std::string>& length_unit_words() {
 
 double mm_of(LengthUnit unit) { return kMmOfUnit.at(static_cast<std::size_t>(unit)); }
 
+std::optional<LengthUnit> length_unit_of(const std::string& word) {
+  const std::vector<std::string>& words = length_unit_words();
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found == words.end()) return std::nullopt;
+  return static_cast<LengthUnit>(found - words.begin());
+}
+
 TriangleMesh checked_mesh(TriangleMesh mesh, const MeshScale& scale, const std::string& where) {
   if (mesh.empty()) throw InputError(where, "the mesh holds no triangles");
   const auto finite = [](const Vec3& vertex) { return vertex.allFinite(); };

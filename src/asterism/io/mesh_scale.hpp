@@ -13,6 +13,8 @@ enum class LengthUnit { Millimetre, Centimetre, Metre, Inch };
 /// "mm", "cm", "m", "inch", in the order of the enum.
 [[nodiscard]] const std::vector<std::string>& length_unit_words();
 [[nodiscard]] double mm_of(LengthUnit unit);
+/// None for a word that is no unit.
+[[nodiscard]] std::optional<LengthUnit> length_unit_of(const std::string& word);
 
 /// How a file's numbers become millimetres: by their unit, or by the longest edge of the box around them.
 struct MeshScale {

@@ -64,5 +64,13 @@ TEST(CheckedMesh, RefusesWhatIsEmptyFlatOrNotANumber) {
   EXPECT_EQ(checked_mesh(open, mm, "").triangles.size(), 11U);  // is let through
 }
 
+TEST(LengthUnitOf, IsTheUnitOfEachWordAndNoneOfAnother) {
+  EXPECT_EQ(length_unit_of("mm"), LengthUnit::Millimetre);
+  EXPECT_EQ(length_unit_of("m"), LengthUnit::Metre);
+  EXPECT_EQ(length_unit_of("inch"), LengthUnit::Inch);
+  EXPECT_FALSE(length_unit_of("").has_value());
+  EXPECT_FALSE(length_unit_of("furlong").has_value());
+}
+
 }  // namespace
 }  // namespace asterism
