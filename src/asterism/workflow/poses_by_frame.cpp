@@ -8,16 +8,12 @@
 #include "asterism/core/result.hpp"
 
 namespace asterism {
-namespace {
-
 Mat6 covariance_of(const StatedSigma& stated) {
   Mat6 covariance = Mat6::Zero();
   covariance.topLeftCorner<3, 3>().diagonal().setConstant(std::pow(rad_from_deg(stated.deg), 2));
   covariance.bottomRightCorner<3, 3>().diagonal().setConstant(stated.mm * stated.mm);
   return covariance;
 }
-
-}  // namespace
 
 std::map<int, KnownMotion> poses_by_frame(std::span<const PoseRecord> records, const std::string& body,
                                           const StatedSigma& stated, const std::filesystem::path& file) {

@@ -15,6 +15,8 @@ namespace asterism {
 struct StatedSigma {
   double mm = 0.02, deg = 0.005;
 };
+/// ω (rad), δ (mm).
+[[nodiscard]] Mat6 covariance_of(const StatedSigma& stated);
 
 /// The measured poses of one body, by frame; `body` empty: of the only one that there is. `file` is for
 /// messages. Throws InputError where there is none, or where several bodies are told of and none was named.

@@ -4,22 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "asterism/core/result.hpp"
 #include "asterism/io/alignment_file.hpp"
 #include "asterism/io/hand_eye_file.hpp"
 #include "asterism/io/scan_folder.hpp"
+#include "asterism/workflow/poses_by_frame.hpp"
 
 namespace asterism {
 namespace {
-
-Mat6 place_covariance(const Scanner& scanner) {
-  Mat6 covariance = Mat6::Zero();
-  covariance.topLeftCorner<3, 3>().diagonal().setConstant(std::pow(rad_from_deg(scanner.place_sigma_deg), 2));
-  covariance.bottomRightCorner<3, 3>().diagonal().setConstant(std::pow(scanner.place_sigma_mm, 2));
-  return covariance;
-}
 
 /// Where the part is on its reference, and what the cloud's frame is called.
 void align(const FuseScansJob& job, const std::optional<Cell>& cell, const ScanPoses& poses, ScanChain& chain,
@@ -62,7 +55,8 @@ std::map<std::string, ScanChain> chains_of(const FuseScansJob& job, const std::o
   if (!poses.reference.empty()) chain.reference = track_of(poses.records, poses.reference, predicted);
   if (cell && cell->scanner) {
     chain.body_from_scanner = cell->scanner->body_from_scanner;
-    chain.of_body_from_scanner = place_covariance(*cell->scanner);
+    chain.of_body_from_scanner =
+        covariance_of(StatedSigma{cell->scanner->place_sigma_mm, cell->scanner->place_sigma_deg});
   } else if (job.hand_eye.empty()) {
     result.remarks.emplace_back(
         "no scanner is known (--cell): its frame is taken as that of its body, and its "
