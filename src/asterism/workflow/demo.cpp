@@ -7,6 +7,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "asterism/core/stopwatch.hpp"
 #include "asterism/io/cell_file.hpp"
 #include "asterism/io/options_file.hpp"
 #include "asterism/io/pose_table.hpp"
@@ -16,10 +17,6 @@
 
 namespace asterism {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 Vec3 target_centroid(const Body& body) {
   Vec3 sum = Vec3::Zero();

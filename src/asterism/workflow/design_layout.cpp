@@ -9,6 +9,7 @@
 
 #include "asterism/core/output_file.hpp"
 #include "asterism/core/result.hpp"
+#include "asterism/core/stopwatch.hpp"
 #include "asterism/io/body_file.hpp"
 #include "asterism/io/checkpoint_file.hpp"
 #include "asterism/io/csv_file.hpp"
@@ -20,10 +21,6 @@ namespace asterism {
 namespace {
 
 constexpr const char* kCheckpoint = "checkpoint";
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 std::filesystem::path folder_of(const DesignJob& job, std::size_t number) {
   return job.out / "layouts" / fmt::format("{:02}", number);

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "asterism/core/result.hpp"
+#include "asterism/core/stopwatch.hpp"
 #include "asterism/io/plan_file.hpp"
 #include "asterism/io/recording.hpp"
 #include "asterism/scanning/planner.hpp"
@@ -13,10 +14,6 @@
 
 namespace asterism {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 PlanOptions plan_options(const ScanStoryJob& job, bool turned) {
   PlanOptions options;
